@@ -24,3 +24,5 @@ pub mod trust {}
 pub mod glossary {}
 #[doc = include_str!("../assets/guide/contributing.md")]
 pub mod contributing {}
+#[doc = include_str!("../assets/guide/changes.md")]
+pub mod changes {}

@@ -265,7 +265,7 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true,
         default_missing_value = "9876")]
     pub(crate) serve: Option<u16>,
-    /// With --serve: wait for a viewer before the run begins, and go on serving until the last one is closed
+    /// With --serve: go on serving when the run has ended, until Enter or Ctrl-C
     #[arg(long, requires = "serve")]
     pub(crate) hold: bool,
     /// Write no recording

@@ -150,7 +150,7 @@ fn end(runs: &Runs) -> Result<u8, Failure> {
         tell(complaint);
     }
     if let Some(run) = last {
-        run.session.send(Command::Stop);
+        run.session.handle.send(Command::Stop);
         match run.session.join() {
             Ok(outcome) => {
                 let code = conclude(&run.prepared.scene, &outcome, None, run.outputs)?;
@@ -187,7 +187,7 @@ fn rebuild(engine: Engine, args: &RunArgs, runs: Runs, interrupt: Arc<AtomicBool
         let run = start(engine, threads, prepared, outputs).map_err(words)?;
         // It ends by itself while the new one starts; what it holds goes when the next one comes.
         if let Some(old) = runs.last_mut() {
-            old.session.send(Command::Stop);
+            old.session.handle.send(Command::Stop);
         }
         let mut wiring = wiring(&run, threads, Arc::clone(&interrupt));
         wiring.rebuild = None;
@@ -208,31 +208,21 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
         outputs,
     } = run;
     let recording = outputs.recording.clone();
-    let plan = &prepared.plan;
-    let (settled, ground) = (session.settled_reader(), session.settled_reader());
+    let [status, settled, ground] = [(); 3].map(|()| session.handle.clone());
     let scene = prepared.scene.clone();
-    let status = session.status_reader();
     let recorded = recording.clone();
     let shown = recording.clone();
     let name = prepared.name.clone();
     Wiring {
-        setup: Setup {
-            scene: prepared.scene.clone(),
-            name: prepared.name.clone(),
-            load_n: plan.force_n,
-            half_width_m: plan.hertz.a_m,
-            p_hertz_pa: plan.hertz.p_max_pa,
-            plan_text: plan.to_string(),
-            left_out: plan.left_out.clone(),
-        },
-        frames: session.latest(),
-        commands: session.commands(),
-        status: Box::new(move || run_status(&status(), recorded.as_ref())),
-        settled: Box::new(settled),
+        setup: Setup::of(prepared.scene.clone(), &prepared.name, &prepared.plan),
+        frames: session.handle.latest(),
+        commands: session.handle.commands(),
+        status: Box::new(move || run_status(&status.status(), recorded.as_ref())),
+        settled: Box::new(move || settled.settled()),
         start_sweep: Some(Box::new(move |order| {
             let ground = Ground {
                 scene: scene.clone(),
-                state: ground()?.state.clone()?,
+                state: ground.settled()?.state.clone()?,
             };
             Some(Background::start(ground, order, threads))
         })),

@@ -167,6 +167,28 @@ pub(crate) fn announce(port: u16) {
     );
 }
 
+/// Waits for Enter, or for a signal. Without anybody to press Enter it is the signal that ends it.
+#[cfg(feature = "rerun")]
+pub(crate) fn wait_for_enter() {
+    use std::sync::atomic::Ordering;
+    use std::sync::mpsc::channel;
+
+    super::failure::tell("viewers are served until Enter or Ctrl-C");
+    let (pressed, enter) = channel();
+    std::thread::spawn(move || {
+        let mut line = String::new();
+        match std::io::stdin().read_line(&mut line) {
+            Ok(1..) => drop(pressed.send(())),
+            // The end of what is no keyboard: the sender is kept.
+            Ok(0) | Err(_) => std::mem::forget(pressed),
+        }
+    });
+    let Ok(stop) = super::signals::stop_on_signals() else {
+        return;
+    };
+    while !stop.load(Ordering::Relaxed) && enter.recv_timeout(LOOK).is_err() {}
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

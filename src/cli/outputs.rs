@@ -46,6 +46,9 @@ pub(crate) struct Outputs {
     #[cfg_attr(not(feature = "tui"), expect(dead_code, reason = "the explorer's"))]
     pub(crate) recording: Option<Recording>,
     summary: SummaryTo,
+    /// Serves viewers when the run has ended.
+    #[cfg(feature = "rerun")]
+    held: Option<asperity_recorder::Server>,
 }
 
 /// The recording of a run.
@@ -80,6 +83,8 @@ impl Outputs {
             watchers: Vec::new(),
             recording: None,
             summary: SummaryTo::check(args.summary.as_deref(), overwrite)?,
+            #[cfg(feature = "rerun")]
+            held: None,
         };
         outputs.open_recording(scene, recording, overwrite, pace)?;
         outputs.open_live(args, scene)?;
@@ -153,11 +158,7 @@ impl Outputs {
         if args.spawn {
             viewers.push(Live::Connect(live::spawn()?));
         }
-        if let Some(port) = args.serve
-            && args.hold
-        {
-            self.open_held(port, &scene.record.clone().unwrap_or_default())?;
-        } else if let Some(port) = args.serve {
+        if let Some(port) = args.serve {
             // Port 0 asks for any that is free; viewers must be told which.
             let port = if port == 0 { live::free_port()? } else { port };
             viewers.push(Live::Serve(port));
@@ -167,35 +168,12 @@ impl Outputs {
             let recorder = Recorder::live(viewer, &record)?;
             if let Live::Serve(port) = viewer {
                 live::announce(port);
+                self.held = args.hold.then(|| recorder.server());
             }
             let name = viewer.to_string();
             let queue = Queue::spawn_live(&name, WAITING, Box::new(recorder))?;
             self.watchers.push(Watcher::new(name, Box::new(queue), 1));
         }
-        Ok(())
-    }
-
-    /// Serves viewers from the first one that comes until the last one has left.
-    #[cfg(feature = "rerun")]
-    fn open_held(
-        &mut self,
-        port: u16,
-        record: &asperity_engine::scene::Record,
-    ) -> Result<(), Failure> {
-        use asperity_recorder::{Gate, Live, Recorder};
-        /// Frames that may wait: a viewer that is waited for should miss none.
-        const WAITING: usize = 256;
-        let gate = Gate::open(port, super::signals::stop_on_signals()?)?;
-        let recorder = Recorder::live(Live::Serve(gate.behind()), record)?;
-        live::announce(gate.port());
-        super::failure::tell(
-            "the run waits for a viewer, and serves until the last one is closed (Ctrl-C ends it)",
-        );
-        gate.wait_for_one();
-        let name = format!("viewers served at 127.0.0.1:{}", gate.port());
-        let recorder = Box::new(recorder.holding(gate));
-        let queue = Queue::spawn(&name, WAITING, RecorderPace::Live.when_full(), recorder)?;
-        self.watchers.push(Watcher::new(name, Box::new(queue), 1));
         Ok(())
     }
 
@@ -224,13 +202,18 @@ impl Outputs {
         Ok(())
     }
 
-    /// Writes the summary where it was asked for. `people` is the text for a reader.
+    /// Writes the summary where it was asked for; then a server that is held serves on. `people` is the text for a reader.
     pub(crate) fn write_summary(
         self,
         summary: Option<&Summary>,
         people: &str,
     ) -> Result<(), ObserveError> {
-        self.summary.write(summary, people)
+        self.summary.write(summary, people)?;
+        #[cfg(feature = "rerun")]
+        if self.held.is_some() {
+            live::wait_for_enter();
+        }
+        Ok(())
     }
 
     /// Splits the watchers, which go to the session, from the rest.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use asperity_session::run::HandTurn;
+use asperity_session::run::{Command, HandTurn};
 
 use super::args::RunArgs;
 use super::failure::Failure;
@@ -61,8 +61,7 @@ pub(crate) fn read(path: &Path, args: &RunArgs) -> Result<Repetition, Failure> {
         })?;
         turns.push(HandTurn {
             steps_made: turn.steps_made,
-            knob,
-            value: turn.value,
+            command: Command::Set(knob, turn.value),
         });
     }
     if let Some(words) = &recorded.broken_off {

@@ -207,9 +207,9 @@ fn wait(session: &Session, estimate_s: f64, interrupt: &AtomicBool, what: &str) 
     while !session.is_finished() {
         if interrupt.load(Ordering::Relaxed) {
             // A run that has ended hears nothing.
-            session.send(Command::Stop);
+            session.handle.send(Command::Stop);
         }
-        let status = session.status();
+        let status = session.handle.status();
         bar.set_position((status.progress * TICKS) as u64);
         if bar.message().is_empty() || status.steps > 0 {
             bar.set_message(if status.steps == 0 {

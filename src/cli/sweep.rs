@@ -138,8 +138,6 @@ fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
     let table = root.join("table.csv");
     let csv = rows.csv(sweep)?;
     folder.write(&table, csv.as_bytes())?;
-    #[cfg(feature = "parquet")]
-    write_parquet(folder, &csv)?;
     folder.write(&root.join("seconds.csv"), rows.seconds_csv().as_bytes())?;
     if !sweep.path.is_empty() {
         folder.write(&root.join("path.csv"), points_csv(sweep)?.as_bytes())?;
@@ -151,17 +149,6 @@ fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
         CaseEnd::NotConverged => 2,
         CaseEnd::Stalled => 3,
     })
-}
-
-#[cfg(feature = "parquet")]
-fn write_parquet(folder: &Folder, csv: &str) -> Result<(), Failure> {
-    let path = folder.root().join("table.parquet");
-    let bytes =
-        asperity_session::sweep::parquet_table(csv).map_err(|reason| SweepError::Folder {
-            path: path.display().to_string(),
-            reason,
-        })?;
-    Ok(folder.write(&path, &bytes)?)
 }
 
 fn told(sweep: &Sweep, rows: &Rows, table: &Path, pictures: &[String]) -> String {

@@ -71,6 +71,7 @@ macro_rules! dispatched {
     };
 }
 
+mod closed_set;
 pub mod files;
 pub mod math;
 pub mod observe;

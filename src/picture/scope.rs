@@ -161,7 +161,7 @@ impl ToCome {
         } else {
             1.0
         };
-        let size = first.kind.hertz_shape().size_ratio(load_ratio);
+        let size = first.kind.size_ratio(load_ratio);
         let speed = greatest(&[Knob::EntrainmentMS], turned.speed_m_s);
         let speed_ratio = if m.entrainment_m_s == 0.0 {
             1.0

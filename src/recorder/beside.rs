@@ -16,14 +16,18 @@ use std::path::Path;
 
 use rerun::{Color, SeriesLines, TextDocument};
 
+pub use self::keyed::{ComparedBy, RunBeside};
 use self::keyed::{KeyedRun, less};
-use super::RecordedFrames;
+use self::layout::RUNS;
 use super::colour::curve::{GREEN, SKY, VERMILION};
+use super::entities::series::{LIFE, POINT_CYCLES};
+use super::entities::{self, DIFFERENCE};
+use super::geometry::Geometry;
 use super::maps;
 use super::moment::Moment;
 use super::picture::Field;
 use super::raster::{Height, RasterEntity};
-use super::recorder::views::{Common, ViewState};
+use super::run_views::{Common, RunViews};
 use super::series::Series;
 use super::stream::Stream;
 use super::text;
@@ -33,37 +37,16 @@ use asperity_engine::scene::Record;
 use asperity_engine::sim::Frame;
 use asperity_picture::{Look, Ramp, Scope};
 
-/// Names of the runs, which stand before those of their entities.
-const RUNS: [&str; 3] = ["a", "b", "c"];
 /// Colour of each in curves that they share.
 const COLOURS: [[u8; 3]; 3] = [VERMILION, SKY, GREEN];
-/// What is compared, how, and how near.
-const COMPARISON: &str = "text/comparison";
 /// Curves that runs share a view of.
 const SHARED: [&str; 5] = [
-    "life/log10_relative",
-    "material_point/cycles/counted",
+    LIFE,
+    POINT_CYCLES,
     "series/pressure_GPa",
     "series/film_um",
     "series/friction",
 ];
-
-/// What is equal where runs are shown together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ComparedBy {
-    /// Simulated time since the start of the passage.
-    Time,
-    /// The distance that body 1, and a crest on it, has gone.
-    Place,
-}
-
-/// One of the runs.
-pub struct RunBeside {
-    /// What tells it from the others.
-    pub name: String,
-    /// Its frames.
-    pub frames: RecordedFrames,
-}
 
 /// What was written.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -135,11 +118,11 @@ pub fn compare(
         written.write(name, run)?;
     }
     let names: Vec<&str> = runs.iter().map(|run| run.name.as_str()).collect();
-    written.tell(&names, by)?;
+    written.tell(&names, by);
     layout::send(&stream, &written.shown, &names)?;
     let told = written.told;
     if let Some(file) = stream.to().file() {
-        file.hold();
+        file.mark_worth_keeping();
     }
     stream.close()?;
     Ok(told)
@@ -193,49 +176,47 @@ impl Written<'_> {
     /// Writes a run under its name.
     fn write(&mut self, name: &'static str, run: &KeyedRun) -> Result<(), ObserveError> {
         let stream = self.stream;
-        stream.go_under(name);
+        stream.enter_run(name);
         let scene = &run.run.frames.scene;
         self.at(self.moments.first().copied().unwrap_or(0));
         let begin = self.picture(run, self.moments.first().copied().unwrap_or(0))?;
         let keep = |entity: &str| SHARED.contains(&entity) || entity.starts_with("material_point/");
-        let series = Series::chosen(stream, begin.kind, keep)?;
-        self.colour(name, run)?;
+        let series = Series::chosen(stream, begin.kind, keep);
+        self.colour(name, run);
         let common = Common {
             scope: self.scope.clone(),
             exaggeration: self.exaggeration,
         };
-        let from = (Some(&**scene), &begin);
-        let mut views = ViewState::of(stream, &Record::default(), from, series, Some(common))?;
-        self.exaggeration = self.exaggeration.or_else(|| views.exaggeration());
+        let record = Record::default();
+        let mut views = RunViews::new(stream, &record, Some(scene), &begin, series, Some(common))?;
+        self.exaggeration = self.exaggeration.or(views.exaggeration);
         let toml = TextDocument::new(run.run.frames.scene_toml.as_str());
-        stream.log_static(text::SCENE_TOML, &toml)?;
-        self.write_series(&mut views, run)?;
+        stream.log_static(entities::text::SCENE_TOML, &toml);
+        self.write_series(&views, run);
         let mut difference = None;
         let mut followed = 0;
         for &moment in self.moments {
             let key = self.first.keys[moment];
             while followed < run.steps.len() && run.keys[followed] <= key {
-                views.follow_point(&run.steps[followed]);
+                views.follow_scalars(&run.steps[followed]);
                 followed += 1;
             }
             let frame = self.picture(run, moment)?;
             self.at(moment);
             views.follow(&frame);
-            views.log(stream, Some(scene), &frame)?;
+            views.log(stream, Some(scene), &frame);
             let words = format!("## {}\n\n{}", run.run.name, run.run.frames.text(frame.step));
-            stream.log(text::NOW, &TextDocument::from_markdown(words))?;
+            stream.log(entities::text::NOW, &TextDocument::from_markdown(words));
             if name != RUNS[0] {
                 self.log_difference(&mut difference, moment, &frame)?;
             }
         }
-        for kymograph in &mut views.kymographs {
-            kymograph.log(stream)?;
-        }
+        views.finish(stream);
         self.shown.push(layout::ShownRun {
             name,
-            views: views.shown(&begin, false),
+            views: views.shown,
         });
-        stream.go_under("");
+        stream.enter_run("");
         Ok(())
     }
 
@@ -256,28 +237,20 @@ impl Written<'_> {
     }
 
     /// Curves of every step, at the first run's moments.
-    fn write_series(&self, views: &mut ViewState, run: &KeyedRun) -> Result<(), ObserveError> {
+    fn write_series(&self, views: &RunViews, run: &KeyedRun) {
         for (frame, key) in run.steps.iter().zip(&run.keys) {
             if *key > self.end {
                 break;
             }
             let (step, time_s, passages) = self.first.moment(*key);
-            let moved = Frame {
-                step: step.round() as u64,
-                time_s,
-                passages,
-                ..frame.clone()
-            };
-            views.series.follow(&moved);
-            if views.series.is_full() {
-                views.series.send(self.stream)?;
-            }
+            let step = step.round() as u64;
+            self.stream.set_time(Moment::new(step, time_s, passages));
+            views.series.log(self.stream, frame);
         }
-        views.series.send(self.stream)
     }
 
     /// Curves in views that runs share have the run's colour and name; the band is thin.
-    fn colour(&self, name: &str, run: &KeyedRun) -> Result<(), ObserveError> {
+    fn colour(&self, name: &str, run: &KeyedRun) {
         let colour = RUNS.iter().zip(COLOURS).find(|(own, _)| **own == name);
         let colour = Color::from(colour.map_or(SKY, |(_, colour)| colour));
         let what = &run.run.name;
@@ -289,13 +262,12 @@ impl Written<'_> {
                 what.clone(),
                 format!("{what}, high"),
             ]);
-        self.stream.log_static("life/log10_relative", &life)?;
+        self.stream.log_static(LIFE, &life);
         let peaks = SeriesLines::new()
             .with_colors([colour])
             .with_widths([1.8])
             .with_names([what.as_str()]);
-        self.stream
-            .log_static("material_point/cycles/counted", &peaks)
+        self.stream.log_static(POINT_CYCLES, &peaks);
     }
 
     /// The pressure of a run less the first one's.
@@ -312,28 +284,22 @@ impl Written<'_> {
             .fold(0.0_f32, |top, value| top.max(value.abs()));
         self.told.difference_pa = self.told.difference_pa.max(greatest.into());
         if raster.is_none() {
-            let geometry = super::geometry::Geometry::of(&first, 1.0);
+            let geometry = Geometry::of(&first, 1.0);
             let (pixels, plot) = (maps::pixels(geometry), maps::plot_box(geometry));
             let top = 0.5 * self.scope.ranges.pressure_pa;
             let look = Look::up_to("Δp", GPA, top, Ramp::Diverging);
-            let new = RasterEntity::new(
-                self.stream,
-                layout::DIFFERENCE,
-                look,
-                pixels,
-                &plot,
-                Height::Fixed,
-            );
-            *raster = Some(new?);
+            let height = Height::Fixed;
+            let new = RasterEntity::new(self.stream, DIFFERENCE, look, pixels, &plot, height);
+            *raster = Some(new);
         }
-        match raster {
-            Some(raster) => raster.log(self.stream, Field::BottomUp(&values, first.nx)),
-            None => Ok(()),
+        if let Some(raster) = raster {
+            raster.log(self.stream, Field::BottomUp(&values, first.nx));
         }
+        Ok(())
     }
 
     /// Says what stands beside what, and how near.
-    fn tell(&self, names: &[&str], by: ComparedBy) -> Result<(), ObserveError> {
+    fn tell(&self, names: &[&str], by: ComparedBy) {
         let by = match by {
             ComparedBy::Time => "simulated time",
             ComparedBy::Place => {
@@ -355,7 +321,7 @@ impl Written<'_> {
             difference = sig(GPA.of(self.told.difference_pa), 3),
             caution = text::CAUTION,
         );
-        self.stream
-            .log_static(COMPARISON, &TextDocument::from_markdown(told))
+        let told = TextDocument::from_markdown(told);
+        self.stream.log_static(entities::text::COMPARISON, &told);
     }
 }

@@ -3,7 +3,7 @@
 //! Fields (maps, slice, 3-D view) are recorded in every n-th step, scalars in every m-th, which is every one as long as
 //! they fit into half of the budget. n starts from the scene's `record.every_steps`, is raised before the run when the
 //! expected size is above the budget, and while it runs when what was recorded is heading beyond it. What is recorded
-//! is [weighed](super::weight) by what is in it, so that what is kept does not depend on the clock.
+//! is [estimated](super::size) by what is in it, so that what is kept does not depend on the clock.
 //!
 //! A run that goes on after the scene's end (the explorer) has no end to plan for. Time is then cut into
 //! octaves, each twice as long as the one before. The k-th may fill 1/(k + 1) of what is left of
@@ -27,9 +27,9 @@ const MARGIN: f64 = 0.02;
 
 /// What of a step is recorded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Due {
-    pub(super) fields: bool,
-    pub(super) scalars: bool,
+pub(crate) struct Due {
+    pub(crate) fields: bool,
+    pub(crate) scalars: bool,
 }
 
 /// Every so-many-th step, beginning with the first.
@@ -56,7 +56,7 @@ impl Every {
 
 /// How often steps are recorded.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Cadence {
+pub(crate) struct Cadence {
     fields: Every,
     scalars: Every,
     asked: u64,
@@ -79,7 +79,7 @@ pub(super) struct Cadence {
 impl Cadence {
     /// Decides from the scene's wishes, the steps to expect and the raw bytes of one frame; `spent`: bytes that were
     /// logged before the first, and those that come last.
-    pub(super) fn new(
+    pub(crate) fn new(
         record: &Record,
         expected_steps: f64,
         frame_bytes: u64,
@@ -120,7 +120,7 @@ impl Cadence {
     }
 
     /// What of a step is recorded. Asked once for each step.
-    pub(super) fn due(&mut self, step: u64) -> Due {
+    pub(crate) fn due(&mut self, step: u64) -> Due {
         let first = self.recorded == 0;
         let holds = |more: f64| first || self.weight + self.last + more <= self.limit;
         let (frame, scalars) = (holds(self.frame() + SCALARS_BYTES), holds(SCALARS_BYTES));
@@ -131,13 +131,13 @@ impl Cadence {
     }
 
     /// The fields of a step were recorded: so many bytes.
-    pub(super) fn took(&mut self, bytes: f64) {
+    pub(crate) fn note_fields(&mut self, bytes: f64) {
         self.recorded += 1;
         self.taken += bytes;
     }
 
     /// What was decided, in words.
-    pub(super) fn note(&self) -> String {
+    pub(crate) fn note(&self) -> String {
         let every = |steps| match steps {
             1 => "every step".to_owned(),
             n => format!("one step in {n}"),
@@ -161,7 +161,7 @@ impl Cadence {
     }
 
     /// Takes up what all that was recorded by this step weighs, bytes; a text when recording becomes rarer from here on.
-    pub(super) fn watch(&mut self, step: u64, weight: f64) -> Option<String> {
+    pub(crate) fn watch(&mut self, step: u64, weight: f64) -> Option<String> {
         let now = step as f64;
         self.weight = weight;
         let before = (self.fields.steps, self.scalars.steps);
@@ -246,7 +246,7 @@ mod tests {
             if due.fields {
                 taken.push(step);
                 weight += frame;
-                cadence.took(frame);
+                cadence.note_fields(frame);
             }
             scalars += usize::from(due.scalars);
             weight += STEP * f64::from(u8::from(due.scalars));

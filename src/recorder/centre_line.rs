@@ -1,38 +1,29 @@
 //! The classic figure of lubrication: pressure and film along y = 0, Hertz's pressure behind them.
 
-use rerun::{LineStrips2D, Radius};
-
-use super::colour::{GREY, ORANGE, SKY, faded};
-use super::gathered::LineStyle;
+use super::colour::{GREY, ORANGE, SKY};
+use super::entities::centre_line::{CENTRE_LINE, FILM, HERTZ, PRESSURE};
 use super::geometry::Geometry;
-use super::plot::{PlotBox, points, ticks_at};
+use super::plot::{PlotBox, Strips, line, points, ticks_at};
 use super::stream::{Holds, Stream};
-use super::waiting::Curves;
+use super::view::View;
 use asperity_engine::math::number::{GPA, MM, UM, divisions, ticks};
-use asperity_engine::observe::ObserveError;
+use asperity_engine::scene::Scene;
 use asperity_engine::sim::Frame;
-
-pub(super) const CENTRE_LINE: &str = "centre_line_y0";
+use asperity_picture::{Ranges, Scope};
 
 /// The figure.
-pub(super) struct CentreLine {
+pub(crate) struct CentreLine {
     geometry: Geometry,
     plot: PlotBox,
     pressure_top_pa: f64,
     film_top_m: f64,
+    /// Half-width and pressure of the Hertz curve that was logged last.
     hertz: Option<[f64; 2]>,
-    pressure: Curves,
-    film: Curves,
 }
 
 impl CentreLine {
     /// Sets up the axes for the ranges of the maps.
-    pub(super) fn new(
-        stream: &Stream,
-        geometry: Geometry,
-        pressure_top_pa: f64,
-        film_top_m: f64,
-    ) -> Result<Self, ObserveError> {
+    pub(crate) fn new(stream: &Stream, geometry: Geometry, ranges: &Ranges) -> Self {
         let x = [geometry.x_min, geometry.x_max()];
         let height = 0.72 * (x[1] - x[0]);
         let plot = PlotBox {
@@ -45,65 +36,42 @@ impl CentreLine {
             right_colour: Some(SKY),
             ..PlotBox::default()
         };
-        let curves = |name: &str, colour| {
-            let entity = format!("{CENTRE_LINE}/{name}");
-            stream.log_static(entity.as_str(), &line(colour, 1.5))?;
-            Ok(stream.curves(entity))
-        };
+        stream.log_static(PRESSURE, &line(ORANGE, 1.5));
+        stream.log_static(FILM, &line(SKY, 1.5));
         let mut this = Self {
             geometry,
             plot,
-            pressure_top_pa,
-            film_top_m,
+            pressure_top_pa: 0.0,
+            film_top_m: 0.0,
             hertz: None,
-            pressure: curves("pressure_GPa", ORANGE)?,
-            film: curves("film_um", SKY)?,
         };
-        this.reach(stream, pressure_top_pa, film_top_m)?;
-        Ok(this)
+        this.draw_axes(stream, ranges);
+        this
     }
 
     /// Draws the axes up to these tops from now on.
-    pub(super) fn reach(
-        &mut self,
-        stream: &Stream,
-        pressure_top_pa: f64,
-        film_top_m: f64,
-    ) -> Result<(), ObserveError> {
+    fn draw_axes(&mut self, stream: &Stream, ranges: &Ranges) {
         let height = -self.plot.y[0];
         let up = |top: f64| move |value: f64| -height * value / top;
-        let (p_top, h_top) = (GPA.of(pressure_top_pa), UM.of(film_top_m));
+        let (p_top, h_top) = (GPA.of(ranges.pressure_pa), UM.of(ranges.film_m));
         self.plot.left_ticks = ticks_at(&divisions(p_top), up(p_top));
         self.plot.right_ticks = ticks_at(&divisions(h_top), up(h_top));
-        (self.pressure_top_pa, self.film_top_m) = (pressure_top_pa, film_top_m);
+        (self.pressure_top_pa, self.film_top_m) = (ranges.pressure_pa, ranges.film_m);
         // Hertz's curve is drawn to the same axes.
         self.hertz = None;
         let axes = format!("{CENTRE_LINE}/axes");
-        self.plot.log_that(stream, &axes, Holds::FromNow)
+        self.plot.log(stream, &axes, Holds::FromNow);
     }
 
-    pub(super) fn plot(&self) -> &PlotBox {
+    pub(crate) fn plot(&self) -> &PlotBox {
         &self.plot
     }
 
-    /// Logs one frame's curves.
-    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-        let g = self.geometry;
-        let row = g.centre_row() * g.nx..(g.centre_row() + 1) * g.nx;
-        self.log_hertz(stream, frame)?;
-        let pressure = &frame.pressure_pa[row.clone()];
-        stream.log_curves(self.pressure, |pen| {
-            self.draw(pressure, self.pressure_top_pa, pen);
-        })?;
-        let film = &frame.film_m[row];
-        stream.log_curves(self.film, |pen| self.draw(film, self.film_top_m, pen))
-    }
-
     /// Hertz's ellipse, logged when the load has changed.
-    fn log_hertz(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    fn log_hertz(&mut self, stream: &Stream, frame: &Frame) {
         let now = [frame.a_m, frame.p_hertz_pa];
         if self.hertz == Some(now) {
-            return Ok(());
+            return;
         }
         self.hertz = Some(now);
         let a = frame.a_m * MM;
@@ -113,27 +81,37 @@ impl CentreLine {
             .map(|[x, p]| [x, self.plot.y[0] * p / self.pressure_top_pa])
             .collect();
         let hertz = line(GREY, 1.0).with_strips([points(&strip)]);
-        stream.log(&format!("{CENTRE_LINE}/hertz_pressure_GPa"), &hertz)
+        stream.log_for(Holds::FromNow, HERTZ, &hertz);
     }
 
     /// The parts of a curve that lie inside the axes; what is above them is left out, not bent.
-    fn draw(&self, values: &[f32], top: f64, pen: &mut LineStyle) {
+    fn draw(&self, values: &[f32], top: f64) -> Strips {
         let height = self.plot.y[0];
+        let mut strips = Strips::default();
         for (i, &value) in values.iter().enumerate() {
             let share = f64::from(value) / top;
             if share <= 1.0 {
-                pen.to([self.geometry.x(i) as f32, (height * share) as f32]);
+                strips.to([self.geometry.x(i) as f32, (height * share) as f32]);
             } else {
-                pen.lift();
+                strips.lift();
             }
         }
+        strips
     }
 }
 
-/// How a curve looks: its colour and how many points wide it is.
-pub(super) fn line(colour: [u8; 3], radius: f32) -> LineStrips2D {
-    LineStrips2D::update_fields()
-        .with_colors([faded(colour, 255)])
-        .with_radii([Radius::new_ui_points(radius)])
-        .with_draw_order(12.0)
+impl View for CentreLine {
+    fn widen(&mut self, stream: &Stream, _scene: Option<&Scene>, scope: &Scope) {
+        self.draw_axes(stream, &scope.ranges);
+    }
+
+    fn log(&mut self, stream: &Stream, frame: &Frame) {
+        let g = self.geometry;
+        let row = g.centre_row() * g.nx..(g.centre_row() + 1) * g.nx;
+        self.log_hertz(stream, frame);
+        let pressure = self.draw(&frame.pressure_pa[row.clone()], self.pressure_top_pa);
+        pressure.log(stream, PRESSURE);
+        let film = self.draw(&frame.film_m[row], self.film_top_m);
+        film.log(stream, FILM);
+    }
 }

@@ -1,22 +1,25 @@
 //! What lies over a picture of the film in colours of its own: contact, and film above the range.
 
+use rerun::components::ImageBuffer;
 use rerun::{AnnotationContext, Rgba32, SegmentationImage};
+
+use super::stream::Stream;
 
 use asperity_picture::{ABOVE, CONTACT, Look};
 
 const FILM: u8 = 0;
-pub(super) const TOUCHES: u8 = 1;
+pub(crate) const TOUCHES: u8 = 1;
 const THICK: u8 = 2;
 
 /// How an image of classes looks.
-pub(super) fn styled() -> SegmentationImage {
+pub(crate) fn styled() -> SegmentationImage {
     SegmentationImage::update_fields()
         .with_opacity(1.0)
         .with_draw_order(5.0)
 }
 
 /// The classes' names and colours.
-pub(super) fn context() -> AnnotationContext {
+pub(crate) fn context() -> AnnotationContext {
     let colour = |[r, g, b]: [u8; 3]| Rgba32::from_rgb(r, g, b);
     AnnotationContext::new([
         (
@@ -29,8 +32,14 @@ pub(super) fn context() -> AnnotationContext {
     ])
 }
 
+/// Logs an image of classes.
+pub(crate) fn log(stream: &Stream, entity: &str, classes: Vec<u8>) {
+    let image = SegmentationImage::update_fields().with_buffer(ImageBuffer::from(classes));
+    stream.log(entity, &image);
+}
+
 /// Classes of a row of nodes.
-pub(super) fn of_row(look: &Look, touches: &[u8], film_m: &[f32], classes: &mut [u8]) {
+pub(crate) fn of_row(look: &Look, touches: &[u8], film_m: &[f32], classes: &mut [u8]) {
     classify(touches, film_m, look.range[1] as f32, classes);
 }
 

@@ -4,39 +4,39 @@
 
 use rerun::Color;
 
-pub(super) use asperity_picture::Ramp;
+pub(crate) use asperity_picture::Ramp;
 
 /// Lines and text.
-pub(super) const ORANGE: [u8; 3] = [230, 159, 0];
-pub(super) const SKY: [u8; 3] = [86, 180, 233];
-pub(super) const GREEN: [u8; 3] = [0, 158, 115];
-pub(super) const YELLOW: [u8; 3] = [240, 228, 66];
-pub(super) const PURPLE: [u8; 3] = [204, 121, 167];
-pub(super) const WHITE: [u8; 3] = [235, 235, 235];
-pub(super) const GREY: [u8; 3] = [150, 155, 165];
+pub(crate) const ORANGE: [u8; 3] = [230, 159, 0];
+pub(crate) const SKY: [u8; 3] = [86, 180, 233];
+pub(crate) const GREEN: [u8; 3] = [0, 158, 115];
+pub(crate) const YELLOW: [u8; 3] = [240, 228, 66];
+pub(crate) const PURPLE: [u8; 3] = [204, 121, 167];
+pub(crate) const WHITE: [u8; 3] = [235, 235, 235];
+pub(crate) const GREY: [u8; 3] = [150, 155, 165];
 
 /// A colour as text has it: the viewer puts a sheet under labels, black or white by its theme and half transparent, so
 /// that a light theme turns [`BACKGROUND`] to a middle grey, on which only bright text can be read.
-pub(super) fn for_text(colour: [u8; 3]) -> [u8; 3] {
+pub(crate) fn for_text(colour: [u8; 3]) -> [u8; 3] {
     colour.map(|value| u8::MAX - ((u16::from(u8::MAX - value) * 2 + 2) / 5) as u8)
 }
 
 /// Background of spatial views: light enough for the dark end of the colour maps to show.
-pub(super) const BACKGROUND: [u8; 3] = [38, 42, 50];
+pub(crate) const BACKGROUND: [u8; 3] = [38, 42, 50];
 
 /// Colours of curves in plots, whose background is the viewer's own: dark or light by its theme. All of them stand out
 /// from black and from white by 3 : 1 (WCAG 2.2, 1.4.11), and are near those above.
-pub(super) mod curve {
-    pub(in super::super) const ORANGE: [u8; 3] = [216, 120, 0];
-    pub(in super::super) const SKY: [u8; 3] = [40, 140, 215];
-    pub(in super::super) const GREEN: [u8; 3] = [0, 150, 105];
-    pub(in super::super) const OLIVE: [u8; 3] = [150, 135, 0];
-    pub(in super::super) const BLUE: [u8; 3] = [80, 90, 215];
-    pub(in super::super) const VERMILION: [u8; 3] = [205, 80, 20];
-    pub(in super::super) const PURPLE: [u8; 3] = [195, 100, 160];
-    pub(in super::super) const GREY: [u8; 3] = [140, 142, 148];
+pub(crate) mod curve {
+    pub(crate) const ORANGE: [u8; 3] = [216, 120, 0];
+    pub(crate) const SKY: [u8; 3] = [40, 140, 215];
+    pub(crate) const GREEN: [u8; 3] = [0, 150, 105];
+    pub(crate) const OLIVE: [u8; 3] = [150, 135, 0];
+    pub(crate) const BLUE: [u8; 3] = [80, 90, 215];
+    pub(crate) const VERMILION: [u8; 3] = [205, 80, 20];
+    pub(crate) const PURPLE: [u8; 3] = [195, 100, 160];
+    pub(crate) const GREY: [u8; 3] = [140, 142, 148];
     /// All of them in words.
-    pub(super) const ALL: [([u8; 3], &str); 8] = [
+    pub(crate) const ALL: [([u8; 3], &str); 8] = [
         (ORANGE, "orange"),
         (SKY, "blue"),
         (GREEN, "green"),
@@ -48,31 +48,31 @@ pub(super) mod curve {
     ];
 
     /// A curve's colour in a word, for the title that stands for its legend.
-    pub(in super::super) fn word(colour: [u8; 3]) -> &'static str {
+    pub(crate) fn word(colour: [u8; 3]) -> &'static str {
         let own = ALL.iter().find(|(one, _)| *one == colour);
         own.map_or("", |(_, word)| word)
     }
 }
 
 /// A colour map in so many steps that an eye sees none: looked up, which costs less than to interpolate.
-pub(super) struct Tints(Vec<[f32; 3]>);
+pub(crate) struct Tints(Vec<[f32; 3]>);
 
 impl Tints {
     /// Over the shares 0 to 1.
-    pub(super) fn new(colour: impl Fn(f32) -> [f32; 3]) -> Self {
+    pub(crate) fn new(colour: impl Fn(f32) -> [f32; 3]) -> Self {
         const STEPS: u16 = 512;
         let share = |step: u16| f32::from(step) / f32::from(STEPS - 1);
         Self((0..STEPS).map(|step| colour(share(step))).collect())
     }
 
     /// Of one of the maps.
-    pub(super) fn of(ramp: Ramp) -> Self {
+    pub(crate) fn of(ramp: Ramp) -> Self {
         Self::new(|share| ramp.colour(share, 1.0).map(f32::from))
     }
 
     /// The colour at a share (clamped), times a shade, as meshes store it.
     #[inline]
-    pub(super) fn colour(&self, share: f32, shade: f32) -> u32 {
+    pub(crate) fn colour(&self, share: f32, shade: f32) -> u32 {
         let last = self.0.len() - 1;
         let step = (share * last as f32 + 0.5) as usize;
         packed(self.0[step.min(last)].map(|value| (value * shade + 0.5) as u8))
@@ -81,19 +81,19 @@ impl Tints {
 
 /// A colour as meshes store it.
 #[inline]
-pub(super) fn packed([r, g, b]: [u8; 3]) -> u32 {
+pub(crate) fn packed([r, g, b]: [u8; 3]) -> u32 {
     u32::from_be_bytes([r, g, b, u8::MAX])
 }
 
 /// With an opacity.
-pub(super) fn faded(colour: [u8; 3], alpha: u8) -> Color {
+pub(crate) fn faded(colour: [u8; 3], alpha: u8) -> Color {
     Color::from_unmultiplied_rgba(colour[0], colour[1], colour[2], alpha)
 }
 
 /// How bright a slope is lit from the inlet side and above, from the rise per length along x and y:
 /// 1 on the flat, at least 0.45.
 #[inline]
-pub(super) fn hillshade(slope_x: f32, slope_y: f32) -> f32 {
+pub(crate) fn hillshade(slope_x: f32, slope_y: f32) -> f32 {
     let light = (1.0 - 0.9 * slope_x - 0.35 * slope_y)
         / (1.0 + slope_x * slope_x + slope_y * slope_y).sqrt();
     (0.72 * light + 0.2).clamp(0.45, 1.15) / 0.92

@@ -9,25 +9,22 @@ use rerun::components::{ImageFormat, MagnificationFilter};
 use rerun::{AnnotationContext, AsComponents, ChannelDatatype, DepthImage, Points2D, Radius};
 use rerun::{Rgba32, Scalars, SegmentationImage};
 
+use super::classes;
 use super::colour::{BACKGROUND, GREEN, WHITE, faded};
 use super::depths::Depths;
+use super::entities::{DAMAGE, damage_block};
 use super::picture::{Field, PixelField};
 use super::plot::{PlotBox, ticks_at};
 use super::raster::{Height, RasterEntity};
 use super::stream::Stream;
-use super::waiting::ClassImage;
+use super::view::View;
 use asperity_engine::math::number::{UM, Unit, sig, ticks};
-use asperity_engine::observe::ObserveError;
+use asperity_engine::scene::Scene;
 use asperity_engine::sim::{DamageBlock, Frame};
-use asperity_picture::{Look, Ramp};
+use asperity_picture::{Look, Ramp, Scope};
 
-/// Entities of body 1 and 2.
-pub(super) const DAMAGE: [&str; 2] = [
-    "damage/body_1_log10_relative",
-    "damage/body_2_log10_relative",
-];
 /// Powers of ten above and below the reference that colours tell apart.
-pub(super) const DECADES: f64 = 3.0;
+pub(crate) const DECADES: f64 = 3.0;
 const WIDTH: f64 = 2.0;
 const HEIGHT: f64 = 1.5;
 /// Depth that is shown, in a: twice that of the greatest shear stress. Below there is no damage to speak of.
@@ -37,15 +34,13 @@ const LEAST: f32 = -12.0;
 
 /// The damage maps of both bodies.
 #[derive(Default)]
-pub(super) struct Damage {
+pub(crate) struct Damage {
     blocks: [Option<Block>; 2],
 }
 
 struct Block {
     entity: &'static str,
     raster: RasterEntity,
-    /// Covers what has not crossed yet.
-    cover: ClassImage,
     depths: Depths,
     columns: usize,
     length_m: f64,
@@ -54,7 +49,7 @@ struct Block {
 }
 
 /// The frame of the pictures, which views show before there is a block.
-pub(super) fn plot_box() -> PlotBox {
+pub(crate) fn plot_box() -> PlotBox {
     PlotBox {
         x: [0.0, WIDTH],
         y: [0.0, HEIGHT],
@@ -62,38 +57,35 @@ pub(super) fn plot_box() -> PlotBox {
     }
 }
 
-impl Damage {
-    /// Logs the maps that have changed.
-    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+impl View for Damage {
+    /// Its range is the same in every recording.
+    fn widen(&mut self, _stream: &Stream, _scene: Option<&Scene>, _scope: &Scope) {}
+
+    fn log(&mut self, _stream: &Stream, _frame: &Frame) {}
+
+    /// The maps that have changed: what collects slowly does not need every picture.
+    fn log_seldom(&mut self, stream: &Stream, frame: &Frame) {
         for (body, damage) in frame.damage.iter().enumerate() {
             let Some(damage) = damage.as_ref().filter(|damage| damage.filled > 0) else {
                 continue;
             };
             let fits = |block: &Block| block.fits(damage);
             if !self.blocks[body].as_ref().is_some_and(fits) {
-                self.blocks[body] = Block::new(stream, DAMAGE[body], damage, frame.a_m)?;
+                self.blocks[body] = Block::new(stream, DAMAGE[body], damage, frame.a_m);
             }
             if let Some(block) = &mut self.blocks[body] {
-                block.log(stream, damage)?;
+                block.log(stream, damage);
             }
         }
-        Ok(())
     }
 }
 
 impl Block {
     /// Sets up the picture; `None` for a block that makes none.
-    fn new(
-        stream: &Stream,
-        entity: &'static str,
-        damage: &DamageBlock,
-        a_m: f64,
-    ) -> Result<Option<Self>, ObserveError> {
-        let Some(depths) = Depths::down_to(&damage.depths_m, DEPTH * a_m) else {
-            return Ok(None);
-        };
+    fn new(stream: &Stream, entity: &'static str, damage: &DamageBlock, a_m: f64) -> Option<Self> {
+        let depths = Depths::down_to(&damage.depths_m, DEPTH * a_m)?;
         if damage.columns == 0 || damage.damage.len() != damage.columns * damage.depths_m.len() {
-            return Ok(None);
+            return None;
         }
         let length = UM.of(damage.length_m);
         let plot = PlotBox {
@@ -119,26 +111,28 @@ impl Block {
             .with_colors([faded(WHITE, 255), faded(GREEN, 255)])
             .with_show_labels(true)
             .with_draw_order(26.0);
-        stream.log_static(worst_point(entity), &style)?;
-        let raster = RasterEntity::new(stream, entity, look, pixels, &plot, Height::Fixed)?;
+        stream.log_static(worst_point(entity), &style);
+        let raster = RasterEntity::new(stream, entity, look, pixels, &plot, Height::Fixed);
         // What is no number must not colour its neighbours.
         let sharp =
             DepthImage::update_fields().with_magnification_filter(MagnificationFilter::Nearest);
-        stream.log_static(format!("{entity}/image"), &sharp)?;
-        log_cover(stream, &cover(entity), &pixels)?;
+        stream.log_static(format!("{entity}/image"), &sharp);
+        log_cover(stream, &cover(entity), &pixels);
         // For programs: length of the block, its columns, and the depths that are shown.
         let sides = [damage.length_m, damage.columns as f64];
         let shown = depths.shown_m().iter().copied();
-        stream.log_static(block(entity), &Scalars::new(sides.into_iter().chain(shown)))?;
-        Ok(Some(Self {
+        stream.log_static(
+            damage_block(entity),
+            &Scalars::new(sides.into_iter().chain(shown)),
+        );
+        Some(Self {
             entity,
             raster,
-            cover: stream.class_image(cover(entity)),
             depths,
             columns: damage.columns,
             length_m: damage.length_m,
             last: Vec::new(),
-        }))
+        })
     }
 
     fn fits(&self, damage: &DamageBlock) -> bool {
@@ -148,21 +142,20 @@ impl Block {
             && damage.damage.len() == damage.columns * damage.depths_m.len()
     }
 
-    fn log(&mut self, stream: &Stream, damage: &DamageBlock) -> Result<(), ObserveError> {
+    fn log(&mut self, stream: &Stream, damage: &DamageBlock) {
         if self.last == damage.damage {
-            return Ok(());
+            return;
         }
         self.last.clone_from(&damage.damage);
         let powers = powers(damage, self.depths.len(), LEAST);
-        self.raster.log(stream, Field::TopDown(&powers))?;
-        stream.log_classes(self.cover, |classes| {
-            classes.extend(powers.iter().map(|power| u8::from(power.is_nan())));
-        })?;
-        self.log_pit(stream, damage)
+        self.raster.log(stream, Field::TopDown(&powers));
+        let not_crossed = powers.iter().map(|power| u8::from(power.is_nan()));
+        classes::log(stream, &cover(self.entity), not_crossed.collect());
+        self.log_pit(stream, damage);
     }
 
     /// Where the pit starts by this map: the worst point.
-    fn log_pit(&self, stream: &Stream, damage: &DamageBlock) -> Result<(), ObserveError> {
+    fn log_pit(&self, stream: &Stream, damage: &DamageBlock) {
         let way = damage.pit_place_m.rem_euclid(self.length_m) / self.length_m;
         let share = self.depths.share(damage.pit_depth_m);
         let at = share.map(|share| [WIDTH * way, HEIGHT * share].map(|v| v as f32));
@@ -185,12 +178,12 @@ impl Block {
         let pit = Points2D::update_fields()
             .with_positions(std::iter::once(label_at).chain(at))
             .with_labels([label, String::new()]);
-        stream.log(&worst_point(self.entity), &pit)
+        stream.log(&worst_point(self.entity), &pit);
     }
 }
 
 /// log10 D depth by depth down to so many depths, `least` at least; NaN in columns that have not crossed.
-pub(super) fn powers(block: &DamageBlock, shown: usize, least: f32) -> Vec<f32> {
+pub(crate) fn powers(block: &DamageBlock, shown: usize, least: f32) -> Vec<f32> {
     let (columns, depths) = (block.columns, block.depths_m.len());
     let mut powers = vec![f32::NAN; columns * shown];
     for (column, damage) in block.damage.chunks_exact(depths.max(1)).enumerate() {
@@ -204,7 +197,7 @@ pub(super) fn powers(block: &DamageBlock, shown: usize, least: f32) -> Vec<f32> 
 }
 
 /// What covers the picture is of the colour behind it: as if nothing were drawn.
-fn log_cover(stream: &Stream, entity: &str, pixels: &PixelField) -> Result<(), ObserveError> {
+fn log_cover(stream: &Stream, entity: &str, pixels: &PixelField) {
     let format = ImageFormat::segmentation(pixels.resolution(), ChannelDatatype::U8);
     let image = SegmentationImage::update_fields()
         .with_format(format)
@@ -216,12 +209,7 @@ fn log_cover(stream: &Stream, entity: &str, pixels: &PixelField) -> Result<(), O
         (1, "not crossed yet", Rgba32::from_rgb(r, g, b)),
     ]);
     let parts: [&dyn AsComponents; 3] = [&image, &pixels.transform(), &context];
-    stream.log_static(entity, &parts)
-}
-
-/// Where the lengths of a damage map are, m.
-pub(super) fn block(entity: &str) -> String {
-    format!("{entity}/block")
+    stream.log_static(entity, &parts);
 }
 
 fn cover(entity: &str) -> String {

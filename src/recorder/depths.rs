@@ -16,14 +16,14 @@ const APART: f64 = 0.115;
 
 /// The depths of a picture.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Depths {
+pub(crate) struct Depths {
     all: Arc<[f64]>,
     shown: usize,
 }
 
 impl Depths {
     /// Those down to `to_m`; `None` for fewer than two, or depths that do not increase.
-    pub(super) fn down_to(all: &Arc<[f64]>, to_m: f64) -> Option<Self> {
+    pub(crate) fn down_to(all: &Arc<[f64]>, to_m: f64) -> Option<Self> {
         let increasing = all.windows(2).all(|pair| pair[0] < pair[1]);
         let shown = all.partition_point(|&depth| depth <= to_m);
         (increasing && shown >= 2).then(|| Self {
@@ -33,29 +33,29 @@ impl Depths {
     }
 
     /// How many are shown.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.shown
     }
 
     /// Those that are shown, m.
-    pub(super) fn shown_m(&self) -> &[f64] {
+    pub(crate) fn shown_m(&self) -> &[f64] {
         &self.all[..self.shown]
     }
 
     /// Whether they are taken from these.
-    pub(super) fn are_of(&self, all: &Arc<[f64]>) -> bool {
+    pub(crate) fn are_of(&self, all: &Arc<[f64]>) -> bool {
         self.all == *all
     }
 
     /// Whether a frame's slice has the depths that were set up.
-    pub(super) fn hold(&self, slice: &StressSlice, nx: usize) -> bool {
+    pub(crate) fn hold(&self, slice: &StressSlice, nx: usize) -> bool {
         let n = nx * self.all.len();
         self.are_of(&slice.depths_m) && slice.effective_pa.len() == n && slice.tau_xz_pa.len() == n
     }
 
     /// Where a depth lies in a picture, as a share of its height: the middle of its row, between two in proportion,
     /// as the viewer interpolates; `None` outside.
-    pub(super) fn share(&self, depth_m: f64) -> Option<f64> {
+    pub(crate) fn share(&self, depth_m: f64) -> Option<f64> {
         let shown = self.shown_m();
         let (first, last) = (shown.first()?, shown.last()?);
         let row = if depth_m < *first {
@@ -73,7 +73,7 @@ impl Depths {
     }
 
     /// Ticks in a picture of that height, the surface at its top.
-    pub(super) fn ticks(&self, height: f64) -> Vec<AxisTick> {
+    pub(crate) fn ticks(&self, height: f64) -> Vec<AxisTick> {
         let mut ticks = vec![(0.0, "0".to_owned())];
         ticks.extend(ticks_over(height, 0.0, |depth_m| self.share(depth_m)));
         ticks
@@ -99,7 +99,7 @@ fn ticks_over(height: f64, from: f64, share: impl Fn(f64) -> Option<f64>) -> Vec
 /// Rows evenly over the logarithm of the depth, to the last depth from a thousandth of it, or from the first that was
 /// computed where that is deeper: what is nearer to the surface is like the surface.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct LogDepths {
+pub(crate) struct LogDepths {
     all: Arc<[f64]>,
     ends_m: [f64; 2],
     /// Of each row: the depth above it, and its part of the way to the next, in the logarithm.
@@ -108,7 +108,7 @@ pub(super) struct LogDepths {
 
 impl LogDepths {
     /// So many rows; `None` for fewer than two depths below the surface, or depths that do not increase.
-    pub(super) fn over(all: &Arc<[f64]>, rows: usize) -> Option<Self> {
+    pub(crate) fn over(all: &Arc<[f64]>, rows: usize) -> Option<Self> {
         let increasing = all.windows(2).all(|pair| pair[0] < pair[1]);
         let first = all.partition_point(|&depth| depth <= 0.0);
         let below = all
@@ -134,30 +134,31 @@ impl LogDepths {
     }
 
     /// Whether a frame's slice has the depths that were set up.
-    pub(super) fn hold(&self, slice: &StressSlice, nx: usize) -> bool {
+    pub(crate) fn hold(&self, slice: &StressSlice, nx: usize) -> bool {
         slice.depths_m == self.all && slice.effective_pa.len() == nx * self.all.len()
     }
 
     /// Where a depth lies in a picture, as a share of its height; `None` outside.
-    pub(super) fn share(&self, depth_m: f64) -> Option<f64> {
+    pub(crate) fn share(&self, depth_m: f64) -> Option<f64> {
         let [first, last] = self.ends_m;
         let inside = (first..=last).contains(&depth_m);
         inside.then(|| (depth_m / first).ln() / (last / first).ln())
     }
 
     /// Ticks in a picture of that height. At its top there is the first depth and no surface: it is infinitely far up.
-    pub(super) fn ticks(&self, height: f64) -> Vec<AxisTick> {
+    pub(crate) fn ticks(&self, height: f64) -> Vec<AxisTick> {
         ticks_over(height, -APART, |depth_m| self.share(depth_m))
     }
 
     /// Values of every row, of every so-many-th column, from those of all depths.
-    pub(super) fn resample(&self, field: &[f32], nx: usize, every: usize, rows: &mut Vec<f32>) {
-        rows.clear();
+    pub(crate) fn resample(&self, field: &[f32], nx: usize, every: usize) -> Vec<f32> {
+        let mut rows = Vec::new();
         for &(above, part) in &self.rows {
             let (upper, lower) = field[above * nx..(above + 2) * nx].split_at(nx);
             let between = upper.iter().zip(lower).step_by(every);
             rows.extend(between.map(|(upper, lower)| upper + (lower - upper) * part));
         }
+        rows
     }
 }
 
@@ -198,8 +199,7 @@ mod tests {
         let field: Vec<f32> = (0..6)
             .flat_map(|row| [row as f32 - 1.0, 10.0, row as f32 - 1.0])
             .collect();
-        let mut rows = Vec::new();
-        depths.resample(&field, 3, 2, &mut rows);
+        let rows = depths.resample(&field, 3, 2);
         let expected = [0.5, 0.5, 1.5, 1.5, 2.5, 2.5, 3.5, 3.5];
         assert!(
             rows.iter()

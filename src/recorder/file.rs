@@ -6,7 +6,7 @@
 //! whole message, so that it stays readable up to there.
 //!
 //! While the run goes on the clock says when something is written, so that a kill loses less than a second. The
-//! finished file is [bound](super::bound): rows together by entity, whenever they were written, and a footer.
+//! finished file is [compacted](super::compact): rows together by entity, whenever they were written, and a footer.
 
 use std::fs::File;
 use std::path::PathBuf;
@@ -17,12 +17,12 @@ use rerun::external::re_log_encoding::{CrateVersion, Encoder, EncodingOptions};
 use rerun::log::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
 
-use super::bound;
+use super::compact::{NoEpilogue, compact};
 use asperity_engine::observe::Placed;
 
 /// A recording's file, shared by the library's thread, which writes, and the recorder, which asks.
 #[derive(Clone)]
-pub(super) struct RecordingFile(Arc<Mutex<FileState>>);
+pub(crate) struct RecordingFile(Arc<Mutex<FileState>>);
 
 struct FileState {
     /// `None` once the file is closed or has failed.
@@ -33,7 +33,7 @@ struct FileState {
     bytes: u64,
     error: Option<String>,
     /// Why the file is as it was written in the run, without a footer.
-    unbound: Option<String>,
+    not_compacted: Option<String>,
     /// Where it lies and what it will be called.
     placed: Placed,
 }
@@ -52,7 +52,7 @@ impl FileState {
     fn finish(&mut self) {
         if let Some(mut encoder) = self.encoder.take() {
             match encoder.finish() {
-                Ok(()) => self.bind(),
+                Ok(()) => self.compact(),
                 Err(error) => self.fail(&error.to_string()),
             }
         }
@@ -65,13 +65,13 @@ impl FileState {
         }
     }
 
-    /// Puts rows together and adds the footer. A recording that cannot be bound (no room for another) is complete
+    /// Puts rows together and adds the footer. A recording that cannot be compacted (no room for another) is complete
     /// all the same: viewers then read it from its beginning.
-    fn bind(&mut self) {
+    fn compact(&mut self) {
         self.bytes = self.length();
-        match bound::bind(self.placed.at(), |_| Ok(Vec::new())) {
+        match compact(self.placed.at(), NoEpilogue) {
             Ok(bytes) => self.bytes = bytes,
-            Err(reason) => self.unbound = Some(reason),
+            Err(reason) => self.not_compacted = Some(reason),
         }
     }
 
@@ -96,19 +96,19 @@ impl FileState {
 
 impl RecordingFile {
     /// Starts a recording in an empty file.
-    pub(super) fn start(file: File, placed: Placed) -> Result<Self, String> {
+    pub(crate) fn start(file: File, placed: Placed) -> Result<Self, String> {
         let for_length = file.try_clone().map_err(|error| error.to_string())?;
         let options = EncodingOptions::PROTOBUF_COMPRESSED;
         let mut encoder = Encoder::new_eager(CrateVersion::LOCAL, options, file)
             .map_err(|error| error.to_string())?;
-        // An index of 5.6 kB a message, kept in memory until the end: it is made when the file is bound.
+        // An index of 5.6 kB a message, kept in memory until the end: it is made when the file is compacted.
         encoder.do_not_emit_footer();
         let mut state = FileState {
             encoder: Some(encoder),
             file: for_length,
             bytes: 0,
             error: None,
-            unbound: None,
+            not_compacted: None,
             placed,
         };
         state.bytes = state.length();
@@ -121,7 +121,7 @@ impl RecordingFile {
     }
 
     /// A step is in it: from now on it is worth its name.
-    pub(super) fn hold(&self) {
+    pub(crate) fn mark_worth_keeping(&self) {
         let mut state = self.lock();
         if let Err(error) = state.placed.hold() {
             state.fail(&error.to_string());
@@ -129,27 +129,27 @@ impl RecordingFile {
     }
 
     /// Where it is written.
-    pub(super) fn path(&self) -> PathBuf {
+    pub(crate) fn path(&self) -> PathBuf {
         self.lock().placed.at().to_owned()
     }
 
     /// Bytes written.
-    pub(super) fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         self.lock().bytes
     }
 
     /// Why writing has ended, if it has.
-    pub(super) fn error(&self) -> Option<String> {
+    pub(crate) fn error(&self) -> Option<String> {
         self.lock().error.clone()
     }
 
     /// Why the finished file has no footer, if it has none.
-    pub(super) fn unbound(&self) -> Option<String> {
-        self.lock().unbound.clone()
+    pub(crate) fn not_compacted(&self) -> Option<String> {
+        self.lock().not_compacted.clone()
     }
 
-    /// Binds the file and gives it its name; what is sent afterwards is not written.
-    pub(super) fn finish(&self) -> Result<(), String> {
+    /// Compacts the file and gives it its name; what is sent afterwards is not written.
+    pub(crate) fn finish(&self) -> Result<(), String> {
         let mut state = self.lock();
         state.finish();
         state.error.clone().map_or(Ok(()), Err)

@@ -4,29 +4,28 @@
 //! bits. What is drawn in every second picture only (traction, roughness) is that of the last one; a step whose
 //! fields are all its own is [whole](RecordedFrames::whole).
 
-mod origin;
-
 use std::collections::HashMap;
-use std::io::BufReader;
 use std::path::Path;
 use std::sync::Arc;
 
-use re_log_types::LogMsg;
-use rerun::external::re_log_encoding::DecoderApp;
+use rerun::external::arrow::ipc::reader::StreamReader;
 use rerun::log::Chunk;
 use rerun::{
     ComponentIdentifier, DepthImage, Scalars, SegmentationImage, SeriesLines, TextDocument,
 };
 
-use self::origin::origin;
+use super::classes;
+use super::entities::{DAMAGE, GRID, SCALARS, damage_block, maps, slice, text};
+use super::messages::{self, Ends};
 use super::moment::STEP;
+use super::note::Note;
+use super::repeat::RereadError;
 use super::scalars::{self, RowReader};
-use super::{RereadError, classes, damage, maps, slice, text};
 use asperity_engine::math::number::{GPA, MPA, UM, Unit};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{DamageBlock, Frame, StressSlice};
 
-/// SteppedImages of an entity by their steps.
+/// Images of an entity by their steps.
 type SteppedImages = Vec<(i64, Arc<[u8]>)>;
 
 /// What a recording holds of its run.
@@ -52,6 +51,8 @@ pub struct RecordedFrames {
 /// What is collected from the chunks.
 #[derive(Default)]
 struct FoundRows {
+    /// Program and scene.
+    origin: Option<(String, String)>,
     grid: Vec<f64>,
     depths_m: Vec<f64>,
     blocks: [Vec<f64>; 2],
@@ -71,9 +72,12 @@ impl RecordedFrames {
             path: path.display().to_string(),
             reason,
         };
-        let (program, scene_toml) = origin(path).map_err(refused)?;
-        let scene = Scene::from_toml(&scene_toml).map_err(|error| refused(error.to_string()))?;
         let found = FoundRows::read(path).map_err(refused)?;
+        let no_run =
+            "holds no run: not recorded by this version of asperity, or several side by side";
+        let origin = found.origin.ok_or_else(|| refused(no_run.to_owned()));
+        let (program, scene_toml) = origin?;
+        let scene = Scene::from_toml(&scene_toml).map_err(|error| refused(error.to_string()))?;
         let unfit = "holds no frames that can be read back: not recorded by this version of asperity, or without a \
                      step";
         let grid = scalars::grid_of(&found.grid).ok_or_else(|| refused(unfit.to_owned()))?;
@@ -184,12 +188,7 @@ impl RecordedFrames {
             return None;
         };
         let (columns, rows) = (*columns as usize, depths.len());
-        let powers = self.values(
-            damage::DAMAGE[body],
-            step,
-            Unit::new("", 1.0),
-            columns * rows,
-        )?;
+        let powers = self.values(DAMAGE[body], step, Unit::new("", 1.0), columns * rows)?;
         let mut block = DamageBlock {
             length_m: *length_m,
             columns,
@@ -265,17 +264,26 @@ fn value_of(half: u16) -> f32 {
 
 impl FoundRows {
     fn read(path: &Path) -> Result<Self, String> {
-        let file = asperity_engine::files::open_plain(path).map_err(|error| error.to_string())?;
-        let messages = DecoderApp::decode_eager(BufReader::new(file));
         let mut found = Self::default();
-        for message in messages.map_err(|error| error.to_string())? {
-            let LogMsg::ArrowMsg(store, arrow) = message.map_err(|error| error.to_string())? else {
-                continue;
-            };
-            if !store.is_blueprint() {
-                let chunk = Chunk::from_arrow_msg(&arrow).map_err(|error| error.to_string())?;
+        let read = messages::read_file(path, |data| {
+            Note::all_in(data, |note| found.take_origin(note));
+            // What is no chunk is none of the recording's own.
+            if let Some(chunk) = chunk_of(data) {
                 found.take(&chunk);
             }
+        })?;
+        match read.ends {
+            Ends::Early { at, reason } => {
+                let bytes = read.bytes;
+                return Err(format!("damaged at byte {at} of {bytes} ({reason})"));
+            }
+            Ends::Closed | Ends::WithTheFile if read.unreadable > 0 => {
+                let unreadable = read.unreadable;
+                return Err(format!(
+                    "damaged: {unreadable} of its messages cannot be read"
+                ));
+            }
+            Ends::Closed | Ends::WithTheFile => {}
         }
         found.rows.sort_by_key(|(step, _)| *step);
         found.rows.dedup_by_key(|(step, _)| *step);
@@ -284,6 +292,17 @@ impl FoundRows {
             pictures.sort_by_key(|(step, _)| *step);
         }
         Ok(found)
+    }
+
+    fn take_origin(&mut self, note: Note) {
+        if let Note::Origin {
+            program,
+            scene_toml,
+            ..
+        } = note
+        {
+            self.origin = Some((program, scene_toml));
+        }
     }
 
     fn take(&mut self, chunk: &Chunk) {
@@ -305,7 +324,7 @@ impl FoundRows {
                 steps,
                 SegmentationImage::descriptor_buffer().component,
             );
-        } else if entity == scalars::SCALARS {
+        } else if entity == SCALARS {
             self.names
                 .extend(strings(chunk, SeriesLines::descriptor_names().component));
             self.rows.extend(steps.iter().copied().zip(numbers(chunk)));
@@ -313,10 +332,10 @@ impl FoundRows {
             let texts = strings(chunk, TextDocument::descriptor_text().component);
             self.texts.extend(steps.iter().copied().zip(texts));
         } else {
-            let of_body = |body: usize| damage::block(damage::DAMAGE[body]) == entity;
+            let of_body = |body: usize| damage_block(DAMAGE[body]) == entity;
             let place = match entity {
-                scalars::GRID => &mut self.grid,
-                scalars::DEPTHS => &mut self.depths_m,
+                GRID => &mut self.grid,
+                slice::DEPTHS => &mut self.depths_m,
                 _ if of_body(0) => &mut self.blocks[0],
                 _ if of_body(1) => &mut self.blocks[1],
                 _ => return,
@@ -343,8 +362,8 @@ impl FoundRows {
             maps::ROUGHNESS_2,
             slice::EFFECTIVE,
             slice::TAU_XZ,
-            damage::DAMAGE[0],
-            damage::DAMAGE[1],
+            DAMAGE[0],
+            DAMAGE[1],
         ];
         if !known.contains(&entity) {
             return;
@@ -358,6 +377,12 @@ impl FoundRows {
             .or_default()
             .extend(pictures);
     }
+}
+
+/// The chunk that a message holds.
+fn chunk_of(data: &[u8]) -> Option<Chunk> {
+    let batch = StreamReader::try_new(data, None).ok()?.next()?.ok()?;
+    Chunk::from_chunk_record_batch(&batch).ok()
 }
 
 /// Numbers of every row.

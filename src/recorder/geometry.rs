@@ -6,22 +6,22 @@ use asperity_engine::sim::Frame;
 
 /// Nodes and lengths of a run's frames; they do not change while it runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Geometry {
-    pub(super) kind: ContactKind,
-    pub(super) nx: usize,
-    pub(super) ny: usize,
-    pub(super) x_min: f64,
-    pub(super) dx: f64,
-    pub(super) y_min: f64,
-    pub(super) dy: f64,
+pub(crate) struct Geometry {
+    pub(crate) kind: ContactKind,
+    pub(crate) nx: usize,
+    pub(crate) ny: usize,
+    pub(crate) x_min: f64,
+    pub(crate) dx: f64,
+    pub(crate) y_min: f64,
+    pub(crate) dy: f64,
     /// Hertz half-widths at the greatest load to come: what is cut out around the contact holds it then too.
-    pub(super) a: f64,
-    pub(super) b: f64,
+    pub(crate) a: f64,
+    pub(crate) b: f64,
 }
 
 impl Geometry {
     /// Of a run with that first frame, whose half-widths grow to `size` of its own.
-    pub(super) fn of(frame: &Frame, size: f64) -> Self {
+    pub(crate) fn of(frame: &Frame, size: f64) -> Self {
         Self {
             kind: frame.kind,
             nx: frame.nx,
@@ -36,7 +36,7 @@ impl Geometry {
     }
 
     /// Whether the fields of a frame have the sizes that were set up at the first one.
-    pub(super) fn holds(&self, frame: &Frame) -> bool {
+    pub(crate) fn holds(&self, frame: &Frame) -> bool {
         let nodes = self.nx * self.ny;
         let sized = |len: usize| len == nodes;
         self.nx == frame.nx
@@ -50,24 +50,24 @@ impl Geometry {
             && sized(frame.contact.len())
     }
 
-    pub(super) fn x(&self, i: usize) -> f64 {
+    pub(crate) fn x(&self, i: usize) -> f64 {
         self.x_min + self.dx * i as f64
     }
 
-    pub(super) fn y(&self, j: usize) -> f64 {
+    pub(crate) fn y(&self, j: usize) -> f64 {
         self.y_min + self.dy * j as f64
     }
 
-    pub(super) fn x_max(&self) -> f64 {
+    pub(crate) fn x_max(&self) -> f64 {
         self.x(self.nx.saturating_sub(1))
     }
 
-    pub(super) fn y_max(&self) -> f64 {
+    pub(crate) fn y_max(&self) -> f64 {
         self.y(self.ny.saturating_sub(1))
     }
 
     /// The row at y = 0.
-    pub(super) fn centre_row(&self) -> usize {
+    pub(crate) fn centre_row(&self) -> usize {
         self.ny / 2
     }
 }

@@ -13,18 +13,17 @@
 use rerun::components::{ImageBuffer, ImageFormat};
 use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, SegmentationImage};
 
+use super::classes;
 use super::colour::{GREY, WHITE};
+use super::entities::maps::INTERFEROGRAM;
 use super::geometry::Geometry;
 use super::picture::{PixelField, log_styled};
 use super::plot::{HALF_LABEL, Labels, PlotBox, TITLES, ticks_at};
-use super::stream::Stream;
-use super::waiting::ClassImage;
+use super::stream::{Holds, Stream};
 use asperity_engine::math::number::{plain, ticks};
-use asperity_engine::observe::ObserveError;
 use asperity_engine::sim::Frame;
 use asperity_picture::interferogram::{LIGHTS_NM, REFRACTIVE_INDEX, TOP_M, colour};
 
-pub(super) const INTERFEROGRAM: &str = "maps/film_interferogram";
 /// Pixels per node and direction.
 const FINER: usize = 2;
 /// Most nodes per direction that are drawn so fine; larger windows get one pixel per node.
@@ -42,18 +41,17 @@ const RISES_M: [f32; 3] = [80e-9, 120e-9, 165e-9];
 const REACH: f64 = 1.3;
 
 /// The interferogram.
-pub(super) struct Interferogram {
+pub(crate) struct Interferogram {
     geometry: Geometry,
     /// First node and number of nodes along x and y.
     from: [usize; 2],
     nodes: [usize; 2],
     finer: usize,
     plot: PlotBox,
-    image: ClassImage,
 }
 
 impl Interferogram {
-    pub(super) fn new(stream: &Stream, geometry: Geometry) -> Result<Self, ObserveError> {
+    pub(crate) fn new(stream: &Stream, geometry: Geometry) -> Self {
         let g = geometry;
         let window = |n: usize, place: &dyn Fn(usize) -> f64, reach: f64| {
             let from = (0..n).find(|&k| place(k) >= -reach).unwrap_or(0);
@@ -73,38 +71,36 @@ impl Interferogram {
             nodes: [nodes_x, nodes_y],
             finer,
             plot: PlotBox::default(),
-            image: stream.class_image(entity()),
         };
         picture.plot = picture.plot_box();
-        picture.log_static(stream)?;
-        Ok(picture)
+        picture.log_static(stream);
+        picture
     }
 
-    pub(super) fn plot(&self) -> &PlotBox {
+    pub(crate) fn plot(&self) -> &PlotBox {
         &self.plot
     }
 
     /// Logs one frame.
-    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    pub(crate) fn log(&self, stream: &Stream, frame: &Frame) {
         let pixels = self.pixels();
         let (mut nodes, mut across) = (Vec::new(), Vec::new());
         let mut parts = vec![0; self.nodes[0] - 1];
-        stream.log_classes(self.image, |classes| {
-            classes.reserve(pixels.columns * pixels.rows);
-            for row in (0..pixels.rows).rev() {
-                self.nodes_of(&frame.film_m, row, &mut nodes, &mut across);
-                let from = classes.len();
-                // The last pixel lies on a node.
-                let last = nodes.last().zip(across.last());
-                let last = last.map_or(FLAT, |(film, rise)| class(*film, *rise));
-                classes.resize(from + pixels.columns, last);
-                for part in 0..self.finer {
-                    classify(&nodes, &across, [part, self.finer], &mut parts);
-                    let out = classes[from + part..].iter_mut().step_by(self.finer);
-                    out.zip(&parts).for_each(|(out, &class)| *out = class);
-                }
+        let mut image = Vec::with_capacity(pixels.columns * pixels.rows);
+        for row in (0..pixels.rows).rev() {
+            self.nodes_of(&frame.film_m, row, &mut nodes, &mut across);
+            let from = image.len();
+            // The last pixel lies on a node.
+            let last = nodes.last().zip(across.last());
+            let last = last.map_or(FLAT, |(film, rise)| class(*film, *rise));
+            image.resize(from + pixels.columns, last);
+            for part in 0..self.finer {
+                classify(&nodes, &across, [part, self.finer], &mut parts);
+                let out = image[from + part..].iter_mut().step_by(self.finer);
+                out.zip(&parts).for_each(|(out, &class)| *out = class);
             }
-        })
+        }
+        classes::log(stream, &entity(), image);
     }
 
     /// The film at the nodes' x on a row of pixels, m, and its rise across a pixel along y; rows count from the
@@ -175,9 +171,9 @@ impl Interferogram {
         }
     }
 
-    fn log_static(&self, stream: &Stream) -> Result<(), ObserveError> {
+    fn log_static(&self, stream: &Stream) {
         let pixels = self.pixels();
-        log_styled(stream, &entity(), &styled(&pixels), &pixels)?;
+        log_styled(stream, &entity(), &styled(&pixels), &pixels);
         let context = AnnotationContext::new((1..=FLAT).map(|class| {
             let (film_m, rise_m) = film_of(class);
             let [r, g, b] = colour(film_m, rise_m);
@@ -192,13 +188,14 @@ impl Interferogram {
                 color: Some(Rgba32::from_rgb(r, g, b)),
             }
         }));
-        stream.log_static(INTERFEROGRAM, &context)?;
-        self.plot.log(stream, &format!("{INTERFEROGRAM}/axes"))?;
-        self.log_legend(stream)
+        stream.log_static(INTERFEROGRAM, &context);
+        self.plot
+            .log(stream, &format!("{INTERFEROGRAM}/axes"), Holds::Always);
+        self.log_legend(stream);
     }
 
     /// The colours against thickness, upwards as in the other maps' legends.
-    fn log_legend(&self, stream: &Stream) -> Result<(), ObserveError> {
+    fn log_legend(&self, stream: &Stream) {
         let plot = &self.plot;
         let (w, h) = (plot.x[1] - plot.x[0], plot.y[1] - plot.y[0]);
         let (left, wide) = (plot.x[1] + 0.04 * w, 0.035 * w);
@@ -211,7 +208,7 @@ impl Interferogram {
         let entity = format!("{INTERFEROGRAM}/legend/bar");
         let ramp: Vec<u8> = (1..=SHARP).rev().collect();
         let image = styled(&bar).with_buffer(ImageBuffer::from(ramp));
-        log_styled(stream, &entity, &image, &bar)?;
+        log_styled(stream, &entity, &image, &bar);
         let mut labels = Labels::default();
         let top = f64::from(TOP_M) * 1e6;
         for value in ticks(0.0, top, 5) {
@@ -219,7 +216,11 @@ impl Interferogram {
             labels.add([left + 0.115 * w, y - HALF_LABEL * h], &plain(value), WHITE);
         }
         labels.add([left + 0.05 * w, plot.y[0] - TITLES * h], "h, µm", WHITE);
-        labels.log(stream, &format!("{INTERFEROGRAM}/legend/labels"))
+        labels.log(
+            stream,
+            &format!("{INTERFEROGRAM}/legend/labels"),
+            Holds::Always,
+        );
     }
 }
 

@@ -9,22 +9,19 @@
 use rerun::components::{ImageBuffer, ImageFormat};
 use rerun::{ChannelDatatype, SegmentationImage};
 
-use super::centre_line::line;
 use super::classes;
 use super::colour::{GREEN, WHITE};
 use super::geometry::Geometry;
 use super::picture::{PixelField, log_styled};
-use super::plot::{PlotBox, ticks_at};
+use super::plot::{PlotBox, Strips, line, ticks_at};
 use super::raster::{Height, RasterEntity};
 use super::stream::{Holds, Stream};
-use super::waiting::Curves;
+use super::view::View;
 use asperity_engine::math::number::ticks;
-use asperity_engine::observe::ObserveError;
+use asperity_engine::scene::Scene;
 use asperity_engine::sim::Frame;
-use asperity_picture::{Look, Ranges, Subject};
+use asperity_picture::{Look, Ranges, Scope, Subject};
 
-pub(super) const PRESSURE: &str = "kymograph/pressure_y0_GPa";
-pub(super) const FILM: &str = "kymograph/film_y0_um";
 /// Most rows of the picture; longer runs keep every 2nd, 3rd, … step.
 const ROWS: usize = 512;
 /// Part of the recording's budget for the picture as it grows; its last state comes at the end.
@@ -33,8 +30,16 @@ const ON_THE_WAY: f64 = 0.05;
 /// Height of the picture over its width.
 const HEIGHT: f64 = 0.6;
 
+/// What the scene lets expect of a run.
+pub(crate) struct ExpectedRun {
+    pub(crate) steps: f64,
+    pub(crate) step_s: f64,
+    /// Of the recording.
+    pub(crate) budget_bytes: f64,
+}
+
 /// One kymograph.
-pub(super) struct KymographEntity {
+pub(crate) struct KymographEntity {
     entity: &'static str,
     subject: Subject,
     look: Look,
@@ -55,22 +60,19 @@ pub(super) struct KymographEntity {
     first_step: Option<u64>,
     /// Rows that may still be written before the end.
     spare_rows: usize,
-    /// A line at now.
-    now: Curves,
 }
 
 impl KymographEntity {
     /// Sets up the picture for so many steps.
-    pub(super) fn new(
+    pub(crate) fn new(
         stream: &Stream,
         geometry: Geometry,
-        (entity, subject): (&'static str, Subject),
+        entity: &'static str,
+        subject: Subject,
         ranges: &Ranges,
-        expected_steps: f64,
-        step_s: f64,
-        budget_bytes: f64,
-    ) -> Result<Self, ObserveError> {
-        let steps = expected_steps.clamp(1.0, 1e6).ceil() as usize;
+        run: &ExpectedRun,
+    ) -> Self {
+        let steps = run.steps.clamp(1.0, 1e6).ceil() as usize;
         let every = steps.div_ceil(ROWS).max(1);
         let rows = steps.div_ceil(every).max(2);
         let x = [geometry.x_min, geometry.x_max()];
@@ -93,21 +95,23 @@ impl KymographEntity {
         let look = Look::of(subject, ranges);
         let touches = if look.marks_contact {
             let place = over_of(entity);
-            log_styled(stream, &place, &classes::styled(), &pixels)?;
-            stream.log_static(place, &classes::context())?;
+            log_styled(stream, &place, &classes::styled(), &pixels);
+            stream.log_static(place, &classes::context());
             vec![0; geometry.nx * rows]
         } else {
             Vec::new()
         };
+        let now = line(GREEN, 1.5).with_draw_order(28.0);
+        stream.log_static(format!("{entity}/now"), &now);
         // Two of a value, one of what lies over it.
         let row_bytes = (2 + usize::from(look.marks_contact)) * geometry.nx;
-        Ok(Self {
+        Self {
             entity,
             subject,
             look,
             row_bytes,
             geometry,
-            raster: RasterEntity::new(stream, entity, look, pixels, &plot, Height::Growing)?,
+            raster: RasterEntity::new(stream, entity, look, pixels, &plot, Height::Growing),
             touches,
             plot,
             values: vec![0.0; geometry.nx * rows],
@@ -116,35 +120,102 @@ impl KymographEntity {
             most_rows: rows,
             every: every as u64,
             axes_for: 0,
-            step_s,
+            step_s: run.step_s,
             first_step: None,
-            spare_rows: (ON_THE_WAY * budget_bytes / row_bytes as f64) as usize,
-            now: {
-                let now = format!("{entity}/now");
-                stream.log_static(now.as_str(), &line(GREEN, 1.5).with_draw_order(28.0))?;
-                stream.curves(now)
-            },
-        })
-    }
-
-    /// Colours of these ranges from now on, as in the maps.
-    pub(super) fn reach(&mut self, stream: &Stream, ranges: &Ranges) -> Result<(), ObserveError> {
-        self.look = Look::of(self.subject, ranges);
-        self.raster.reach(stream, self.look).map(drop)
+            spare_rows: (ON_THE_WAY * run.budget_bytes / row_bytes as f64) as usize,
+        }
     }
 
     /// Bytes of the picture when it is full.
-    pub(super) fn full_bytes(&self) -> usize {
+    pub(crate) fn full_bytes(&self) -> usize {
         self.row_bytes * self.most_rows
     }
 
-    pub(super) fn plot(&self) -> &PlotBox {
+    pub(crate) fn plot(&self) -> &PlotBox {
         &self.plot
+    }
+
+    /// Keeps every other row, of twice as many steps.
+    fn halve(&mut self) {
+        let nx = self.geometry.nx;
+        let kept = self.rows.div_ceil(2);
+        for row in 1..kept {
+            let from = 2 * row * nx..(2 * row + 1) * nx;
+            if !self.touches.is_empty() {
+                self.touches.copy_within(from.clone(), row * nx);
+            }
+            self.values.copy_within(from, row * nx);
+        }
+        (self.rows, self.rows_logged) = (kept, 0);
+        self.every = self.every.saturating_mul(2);
+    }
+
+    /// Logs the picture when an eighth has been added.
+    fn log_if_due(&mut self, stream: &Stream) {
+        let due = self.rows_logged == 0
+            || self.rows >= self.rows_logged + self.most_rows.div_ceil(8)
+            || (self.rows == self.most_rows && self.rows > self.rows_logged);
+        if due && self.rows <= self.spare_rows {
+            self.spare_rows -= self.rows;
+            self.log_picture(stream);
+        } else {
+        }
+    }
+
+    /// Logs the line at a step, on the axis that was drawn last.
+    fn log_now(&self, stream: &Stream, step: u64) {
+        let steps = step.saturating_sub(self.first_step.unwrap_or(step)) + 1;
+        let all = self.most_rows as f64 * self.axes_for.max(1) as f64;
+        let [x, y] = [self.plot.x, self.plot.y].map(|ends| ends.map(|end| end as f32));
+        let at = y[1] * (steps as f64 / all).min(1.0) as f32;
+        let mut strip = Strips::default();
+        strip.to([x[0], at]);
+        strip.to([x[1], at]);
+        strip.log(stream, &format!("{}/now", self.entity));
+    }
+
+    /// Logs the picture as it is now.
+    fn log_picture(&mut self, stream: &Stream) {
+        if self.rows == self.rows_logged {
+            return;
+        }
+        if self.axes_for != self.every {
+            self.axes_for = self.every;
+            let span_ms = self.step_s * 1e3 * self.most_rows as f64 * self.every as f64;
+            let height = self.plot.y[1];
+            self.plot.left_ticks = ticks_at(&ticks(0.0, span_ms, 5), |t| height * t / span_ms);
+            let axes = format!("{}/axes", self.entity);
+            self.plot.log(stream, &axes, Holds::FromNow);
+        }
+        self.rows_logged = self.rows;
+        let nodes = self.rows * self.geometry.nx;
+        if !self.touches.is_empty() {
+            self.log_over(stream, nodes);
+        }
+        self.raster.log_upper(stream, &self.values[..nodes]);
+    }
+
+    /// Contact and what is above the range, in the colours that they have in the map.
+    fn log_over(&self, stream: &Stream, nodes: usize) {
+        let mut over = vec![0; nodes];
+        classes::of_row(&self.look, &self.touches, &self.values, &mut over);
+        let resolution = [self.geometry.nx as u32, self.rows as u32];
+        let image = SegmentationImage::update_fields()
+            .with_buffer(ImageBuffer::from(over))
+            .with_format(ImageFormat::segmentation(resolution, ChannelDatatype::U8));
+        stream.log(&over_of(self.entity), &image);
+    }
+}
+
+impl View for KymographEntity {
+    fn widen(&mut self, stream: &Stream, _scene: Option<&Scene>, scope: &Scope) {
+        self.look = Look::of(self.subject, &scope.ranges);
+        self.raster.widen(stream, self.look);
     }
 
     /// Takes up a step. Rows of steps that were not handed to the recording repeat the next one
     /// that was.
-    pub(super) fn follow(&mut self, frame: &Frame) {
+    fn follow_fields(&mut self, frame: &Frame) {
         let first = *self.first_step.get_or_insert(frame.step);
         let steps = frame.step.saturating_sub(first);
         while steps / self.every >= self.most_rows as u64 {
@@ -174,76 +245,14 @@ impl KymographEntity {
         self.rows = rows;
     }
 
-    /// Keeps every other row, of twice as many steps.
-    fn halve(&mut self) {
-        let nx = self.geometry.nx;
-        let kept = self.rows.div_ceil(2);
-        for row in 1..kept {
-            let from = 2 * row * nx..(2 * row + 1) * nx;
-            if !self.touches.is_empty() {
-                self.touches.copy_within(from.clone(), row * nx);
-            }
-            self.values.copy_within(from, row * nx);
-        }
-        (self.rows, self.rows_logged) = (kept, 0);
-        self.every = self.every.saturating_mul(2);
+    /// The picture where it is due, and the line at now.
+    fn log(&mut self, stream: &Stream, frame: &Frame) {
+        self.log_if_due(stream);
+        self.log_now(stream, frame.step);
     }
 
-    /// Logs the picture when an eighth has been added.
-    pub(super) fn log_if_due(&mut self, stream: &Stream) -> Result<(), ObserveError> {
-        let due = self.rows_logged == 0
-            || self.rows >= self.rows_logged + self.most_rows.div_ceil(8)
-            || (self.rows == self.most_rows && self.rows > self.rows_logged);
-        if due && self.rows <= self.spare_rows {
-            self.spare_rows -= self.rows;
-            self.log(stream)
-        } else {
-            Ok(())
-        }
-    }
-
-    /// Logs the line at a step, on the axis that was drawn last.
-    pub(super) fn log_now(&self, stream: &Stream, step: u64) -> Result<(), ObserveError> {
-        let steps = step.saturating_sub(self.first_step.unwrap_or(step)) + 1;
-        let all = self.most_rows as f64 * self.axes_for.max(1) as f64;
-        let [x, y] = [self.plot.x, self.plot.y].map(|ends| ends.map(|end| end as f32));
-        let at = y[1] * (steps as f64 / all).min(1.0) as f32;
-        stream.log_curves(self.now, |pen| {
-            pen.to([x[0], at]);
-            pen.to([x[1], at]);
-        })
-    }
-
-    /// Logs the picture as it is now.
-    pub(super) fn log(&mut self, stream: &Stream) -> Result<(), ObserveError> {
-        if self.rows == self.rows_logged {
-            return Ok(());
-        }
-        if self.axes_for != self.every {
-            self.axes_for = self.every;
-            let span_ms = self.step_s * 1e3 * self.most_rows as f64 * self.every as f64;
-            let height = self.plot.y[1];
-            self.plot.left_ticks = ticks_at(&ticks(0.0, span_ms, 5), |t| height * t / span_ms);
-            let axes = format!("{}/axes", self.entity);
-            self.plot.log_that(stream, &axes, Holds::FromNow)?;
-        }
-        self.rows_logged = self.rows;
-        let nodes = self.rows * self.geometry.nx;
-        if !self.touches.is_empty() {
-            self.log_over(stream, nodes)?;
-        }
-        self.raster.log_upper(stream, &self.values[..nodes])
-    }
-
-    /// Contact and what is above the range, in the colours that they have in the map.
-    fn log_over(&self, stream: &Stream, nodes: usize) -> Result<(), ObserveError> {
-        let mut over = vec![0; nodes];
-        classes::of_row(&self.look, &self.touches, &self.values, &mut over);
-        let resolution = [self.geometry.nx as u32, self.rows as u32];
-        let image = SegmentationImage::update_fields()
-            .with_buffer(ImageBuffer::from(over))
-            .with_format(ImageFormat::segmentation(resolution, ChannelDatatype::U8));
-        stream.log(&over_of(self.entity), &image)
+    fn finish(&mut self, stream: &Stream) {
+        self.log_picture(stream);
     }
 }
 

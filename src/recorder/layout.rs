@@ -5,8 +5,8 @@
 //! `view/<id>/<Property>`, and the lot is sent to the recording. That path is a convention of the
 //! viewer and not of its interface: `tests/screenshots` shows whether it still holds.
 
-pub(super) mod tabs;
-pub(super) mod views;
+pub(crate) mod tabs;
+pub(crate) mod views;
 
 use re_log_types::{BlueprintActivationCommand, LogMsg, StoreId};
 use rerun::blueprint::components::{LoopMode, PanelState, PlayState};
@@ -17,71 +17,34 @@ use rerun::{RecordingStream, RecordingStreamBuilder};
 
 use self::views::{Property, Views};
 use super::moment::{SIMULATED_TIME, STEP, check_clock};
-use super::plot::PlotBox;
+use super::shown::ShownViews;
 use super::stream::{APPLICATION, Stream};
-use super::tooth::ShownTooth;
 use asperity_engine::observe::ObserveError;
-use asperity_engine::scene::ContactKind;
 
 /// Time that a passage of 4 a takes when it is played, s.
 const PASSAGE_SHOWN_S: f64 = 10.0;
 
-/// What the first frame tells the layout.
-pub(super) struct ShownViews {
-    /// Whether the run goes on while it is shown.
-    pub(super) live: bool,
-    /// Time of a passage of 4 a, s; `None` where nothing moves.
-    pub(super) passage_s: Option<f64>,
-    pub(super) kind: ContactKind,
-    pub(super) map: PlotBox,
-    pub(super) interferogram: PlotBox,
-    pub(super) centre_line: PlotBox,
-    pub(super) slice: Option<PlotBox>,
-    /// The same of a line contact over the logarithm of the depth, which is shown in its place.
-    pub(super) over_log: Option<PlotBox>,
-    pub(super) trace: Option<PlotBox>,
-    /// Both surfaces, and below them the trace.
-    pub(super) profile: Option<[[f64; 2]; 2]>,
-    pub(super) kymograph: PlotBox,
-    /// The tooth that the contact rides along.
-    pub(super) tooth: Option<ShownTooth>,
-    /// Target and position of the camera, and of the one that looks down on the pressure.
-    pub(super) camera: Option<[[f64; 3]; 2]>,
-    pub(super) lecture: Option<[[f64; 3]; 2]>,
-    pub(super) rough: [bool; 2],
-    /// Bodies whose damage is mapped.
-    pub(super) damaged: [bool; 2],
-    pub(super) life: bool,
-    /// Whether a body has a hardness at which it flows.
-    pub(super) yields: bool,
-}
-
 /// Sends the layout to a recording.
-pub(super) fn send(stream: &Stream, shown: &ShownViews) -> Result<(), ObserveError> {
+pub(crate) fn send(stream: &Stream, shown: &ShownViews) -> Result<(), ObserveError> {
     let mut views = Views::default();
     let tabs = tabs::all(&mut views, shown);
-    send_tabs(
-        stream,
-        tabs,
-        &views.properties,
-        (shown.live, shown.passage_s),
-    )
+    send_tabs(stream, tabs, &views.properties, shown)
 }
 
-/// Sends tabs: whether the run goes on while they are shown, and how long a passage takes in it.
-pub(super) fn send_tabs(
+/// Sends tabs of what is shown.
+pub(crate) fn send_tabs(
     stream: &Stream,
     tabs: Vec<ContainerLike>,
     properties: &[Property],
-    (live, passage_s): (bool, Option<f64>),
+    shown: &ShownViews,
 ) -> Result<(), ObserveError> {
     let time = TimePanel::new()
         .with_state(PanelState::Collapsed)
         .with_play_state(PlayState::Following)
-        .with_loop_mode(loop_mode(live))
+        .with_loop_mode(loop_mode(shown.live))
         .with_fps(15.0);
     // Milliseconds, so slowly that a passage can be followed; where nothing moves there are only steps.
-    let time = match passage_s {
+    let time = match shown.passage_s {
         Some(passage_s) => time
             .with_timeline(SIMULATED_TIME)
             .with_playback_speed(passage_s / PASSAGE_SHOWN_S),

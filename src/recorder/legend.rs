@@ -4,15 +4,14 @@ use rerun::ChannelDatatype;
 use rerun::components::ImageFormat;
 
 use super::colour::{GREY, WHITE};
-use super::picture::{PixelField, log_styled, range, stored, styled};
+use super::picture::{Field, PixelField, log_styled, range, stored, styled};
 use super::plot::{HALF_LABEL, Labels, PlotBox, TITLES};
 use super::stream::{Holds, Stream};
-use asperity_engine::observe::ObserveError;
 use asperity_picture::Look;
 
 /// The colour bar of a picture.
 #[derive(Debug, Clone)]
-pub(super) struct Legend {
+pub(crate) struct Legend {
     entity: String,
     /// The plot beside which it stands.
     plot: PlotBox,
@@ -22,12 +21,7 @@ impl Legend {
     const ROWS: usize = 128;
 
     /// Logs what stays: the bar's place, format and colours.
-    pub(super) fn new(
-        stream: &Stream,
-        entity: String,
-        look: &Look,
-        plot: &PlotBox,
-    ) -> Result<Self, ObserveError> {
+    pub(crate) fn new(stream: &Stream, entity: String, look: &Look, plot: &PlotBox) -> Self {
         let legend = Self {
             entity,
             plot: plot.clone(),
@@ -42,8 +36,8 @@ impl Legend {
         };
         let format = ImageFormat::depth(pixels.resolution(), ChannelDatatype::F16);
         let image = styled(look).with_format(format);
-        log_styled(stream, &legend.bar(), &image, &pixels)?;
-        Ok(legend)
+        log_styled(stream, &legend.bar(), &image, &pixels);
+        legend
     }
 
     fn width(&self) -> f64 {
@@ -59,14 +53,15 @@ impl Legend {
     }
 
     /// Logs the range: the bar's values and the numbers beside it.
-    pub(super) fn log(&self, stream: &Stream, look: &Look) -> Result<(), ObserveError> {
+    pub(crate) fn log(&self, stream: &Stream, look: &Look) {
         let (w, h, upper) = (self.width(), self.height(), self.plot.y[0]);
         let [low, top] = look.range;
         let span = top - low;
         let ramp: [f32; Self::ROWS] =
             std::array::from_fn(|row| (top - span * (row as f64 + 0.5) / Self::ROWS as f64) as f32);
-        let image = range(look).with_buffer(stored(look, &ramp));
-        stream.log(&self.bar(), &image)?;
+        let (values, _) = stored(look, Field::TopDown(&ramp));
+        let image = range(look).with_buffer(values);
+        stream.log_for(Holds::FromNow, &self.bar(), &image);
 
         let mut labels = Labels::default();
         let right = self.plot.x[1];
@@ -79,6 +74,6 @@ impl Legend {
         if let Some(note) = look.note() {
             labels.add([right + 0.12 * w, self.plot.y[1] + 0.04 * h], &note, GREY);
         }
-        labels.log_that(stream, &format!("{}/labels", self.entity), Holds::FromNow)
+        labels.log(stream, &format!("{}/labels", self.entity), Holds::FromNow);
     }
 }

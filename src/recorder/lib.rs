@@ -4,7 +4,7 @@
 //! at y = 0 ([`space`]), scalars are recorded in every step where they fit, fields as often as the budget allows
 //! ([`cadence`]). The file holds the scene as TOML, the plan and the log of commands, so that it
 //! tells how to repeat itself. It is readable up to the last second if the process is killed, and has a footer when it
-//! is finished ([`bound`]).
+//! is finished ([`compact`]).
 //!
 //! Logging may block on the disk: run the recorder behind a [`Queue`](asperity_session::Queue), which
 //! also keeps all its calls on one thread, as the library's timelines want it.
@@ -21,18 +21,17 @@ macro_rules! dispatched {
 }
 
 mod beside;
-mod bound;
 mod cadence;
 mod centre_line;
 mod classes;
 mod colour;
+mod compact;
 mod damage;
 mod depths;
 mod destination;
+mod entities;
 mod file;
 mod frames;
-mod gate;
-mod gathered;
 mod geometry;
 mod interferogram;
 mod kymograph;
@@ -41,32 +40,33 @@ mod legend;
 mod live;
 mod maps;
 mod mesh;
-mod message;
+mod messages;
 mod moment;
 mod note;
-mod over_log;
 mod picture;
 mod plot;
 mod profile;
 mod properties;
 mod raster;
 mod recorder;
-mod reread;
+mod repeat;
+mod run_views;
 mod scalars;
 mod series;
+mod shown;
+mod size;
 mod slice;
 mod space;
 mod stream;
+mod summary;
 mod text;
 mod tooth;
 mod trace;
-mod waiting;
-mod weight;
+mod view;
 
 pub use beside::{ComparedBy, RunBeside, RunsCompared, compare};
 pub use frames::RecordedFrames;
-pub use gate::Gate;
 pub use live::Live;
-pub use properties::note_summary;
-pub use recorder::Recorder;
-pub use reread::{Recorded, RecordedTurn, RereadError};
+pub use recorder::{Recorder, Server};
+pub use repeat::{Recorded, RecordedTurn, RereadError};
+pub use summary::note_summary;

@@ -47,12 +47,12 @@ impl std::fmt::Display for Live {
 }
 
 /// What a viewer is told to open.
-pub(super) fn url(address: impl std::fmt::Display) -> String {
+pub(crate) fn url(address: impl std::fmt::Display) -> String {
     format!("rerun+http://{address}/proxy")
 }
 
 /// The connection, as far as it can be asked.
-pub(super) enum Link {
+pub(crate) enum Link {
     /// To a viewer.
     Viewer {
         sink: Arc<GrpcSink>,
@@ -66,7 +66,7 @@ pub(super) enum Link {
 
 impl Link {
     /// Whether the viewer has been closed or has broken off.
-    pub(super) fn is_gone(&self) -> bool {
+    pub(crate) fn is_gone(&self) -> bool {
         match self {
             Self::Viewer { sink, .. } => {
                 matches!(sink.status(), GrpcSinkConnectionState::Disconnected(_))
@@ -76,7 +76,7 @@ impl Link {
     }
 
     /// Whether the viewer has ever answered.
-    pub(super) fn has_answered(&self) -> bool {
+    pub(crate) fn has_answered(&self) -> bool {
         match self {
             Self::Viewer { greeting, .. } => greeting.is_answered(),
             Self::Server => true,
@@ -84,14 +84,14 @@ impl Link {
     }
 
     /// All has been sent; `took_all`: and taken.
-    pub(super) fn ended(&self, took: bool) {
+    pub(crate) fn note_end(&self, took: bool) {
         if let Self::Viewer { took_all, .. } = self {
             took_all.set(took);
         }
     }
 
     /// Whether all that was sent was taken.
-    pub(super) fn took_all(&self) -> bool {
+    pub(crate) fn took_all(&self) -> bool {
         match self {
             Self::Viewer { took_all, .. } => took_all.get(),
             Self::Server => true,
@@ -101,7 +101,7 @@ impl Link {
 
 /// A greeting of HTTP/2, on a connection of its own: something takes connections at many a port and is no viewer, and
 /// the library calls it connected as soon as it has been taken.
-pub(super) struct Greeting(RefCell<Option<TcpStream>>);
+pub(crate) struct Greeting(RefCell<Option<TcpStream>>);
 
 impl Greeting {
     /// Says hello on a connection that stands.
@@ -144,7 +144,7 @@ impl LogSink for ToViewer {
 }
 
 /// Opens the stream, or says why there is nobody to send to.
-pub(super) fn open(
+pub(crate) fn open(
     live: Live,
     builder: RecordingStreamBuilder,
 ) -> Result<(RecordingStream, Link), ObserveError> {

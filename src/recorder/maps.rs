@@ -5,29 +5,18 @@ use rerun::{AsComponents, ChannelDatatype};
 
 use super::classes;
 use super::colour::WHITE;
+use super::entities::maps::{CONTACT, FILM, HERTZ, PRESSURE, ROUGHNESS_1, ROUGHNESS_2, TRACTION};
 use super::geometry::Geometry;
 use super::interferogram::Interferogram;
 use super::picture::{Field, PixelField};
 use super::plot::{HertzCurve, PlotBox, ticks_at};
 use super::raster::{Height, RasterEntity};
 use super::stream::Stream;
-use super::text::Widened;
-use super::waiting::ClassImage;
+use super::view::View;
 use asperity_engine::math::number::ticks;
-use asperity_engine::observe::ObserveError;
+use asperity_engine::scene::Scene;
 use asperity_engine::sim::Frame;
-use asperity_picture::{Look, Ranges, Subject};
-
-/// Entities of the maps, each with its unit.
-pub(super) const PRESSURE: &str = "maps/pressure_GPa";
-pub(super) const FILM: &str = "maps/film_um";
-pub(super) const TRACTION: &str = "maps/traction_on_body_1_MPa";
-pub(super) const ROUGHNESS_1: &str = "maps/roughness_body_1_um";
-pub(super) const ROUGHNESS_2: &str = "maps/roughness_body_2_um";
-/// Drawn over the film.
-pub(super) const CONTACT: &str = "maps/contact_spots";
-/// Hertz's contact, drawn over every map.
-pub(super) const HERTZ: &str = "maps/hertz_contact";
+use asperity_picture::{Look, Ranges, Scope, Subject};
 
 /// The maps and what they show.
 const MAPS: [(&str, Subject); 5] = [
@@ -46,10 +35,9 @@ struct Map {
 }
 
 impl Map {
-    fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-        match self.subject.field(frame) {
-            Some(field) => self.raster.log(stream, Field::BottomUp(&field, frame.nx)),
-            None => Ok(()),
+    fn log(&self, stream: &Stream, frame: &Frame) {
+        if let Some(field) = self.subject.field(frame) {
+            self.raster.log(stream, Field::BottomUp(&field, frame.nx));
         }
     }
 
@@ -60,109 +48,99 @@ impl Map {
 }
 
 /// The maps that change.
-pub(super) struct Maps {
+pub(crate) struct Maps {
     geometry: Geometry,
-    shown: Vec<Map>,
+    maps: Vec<Map>,
     interferogram: Interferogram,
-    contact: ClassImage,
     film: Look,
     hertz: HertzCurve,
 }
 
 impl Maps {
     /// Sets up the maps.
-    pub(super) fn new(
-        stream: &Stream,
-        geometry: Geometry,
-        ranges: &Ranges,
-    ) -> Result<Self, ObserveError> {
-        let listed = MAPS.into_iter().filter(|(_, subject)| match subject {
+    pub(crate) fn new(stream: &Stream, geometry: Geometry, ranges: &Ranges) -> Self {
+        let is_shown = |subject: &Subject| match subject {
             Subject::Roughness1 => ranges.rough[0],
             Subject::Roughness2 => ranges.rough[1],
-            _ => true,
-        });
-        let shown = listed.map(|(entity, subject)| {
+            Subject::Pressure
+            | Subject::Film
+            | Subject::Interferogram
+            | Subject::Contact
+            | Subject::Traction
+            | Subject::RoughnessOfBoth
+            | Subject::EffectiveStress
+            | Subject::ShearStress => true,
+        };
+        let shown = MAPS.into_iter().filter(|(_, subject)| is_shown(subject));
+        let (pixels, plot) = (pixels(geometry), plot_box(geometry));
+        let maps = shown.map(|(entity, subject)| {
             let look = Look::of(subject, ranges);
-            let (pixels, plot) = (pixels(geometry), plot_box(geometry));
-            let raster = RasterEntity::new(stream, entity, look, pixels, &plot, Height::Fixed)?;
-            Ok(Map {
+            Map {
                 entity,
                 subject,
-                raster,
-            })
+                raster: RasterEntity::new(stream, entity, look, pixels, &plot, Height::Fixed),
+            }
         });
-        let maps = Self {
-            geometry,
-            shown: shown.collect::<Result<_, _>>()?,
-            interferogram: Interferogram::new(stream, geometry)?,
-            contact: stream.class_image(CONTACT),
-            film: Look::of(Subject::Film, ranges),
-            hertz: HertzCurve::default(),
-        };
-        let pixels = pixels(geometry);
+        let maps = maps.collect();
         let format = ImageFormat::segmentation(pixels.resolution(), ChannelDatatype::U8);
         let image = classes::styled().with_format(format);
         let parts: [&dyn AsComponents; 3] = [&image, &pixels.transform(), &classes::context()];
-        stream.log_static(CONTACT, &parts)?;
-        Ok(maps)
-    }
-
-    /// The images, for the notes in the recording and for what is told of them.
-    pub(super) fn rasters(&self) -> impl Iterator<Item = (&'static str, &RasterEntity)> {
-        self.shown.iter().map(|map| (map.entity, &map.raster))
-    }
-
-    /// Widens the ranges from now on; what has changed, with its tops before and after.
-    pub(super) fn reach(
-        &mut self,
-        stream: &Stream,
-        ranges: &Ranges,
-    ) -> Result<Vec<Widened>, ObserveError> {
-        self.film = Look::of(Subject::Film, ranges);
-        let mut widened = Vec::new();
-        for map in &mut self.shown {
-            let look = Look::of(map.subject, ranges);
-            let tops = map.raster.reach(stream, look)?;
-            widened.extend(tops.map(|tops| (map.entity, tops, look.unit.name)));
+        stream.log_static(CONTACT, &parts);
+        Self {
+            geometry,
+            maps,
+            interferogram: Interferogram::new(stream, geometry),
+            film: Look::of(Subject::Film, ranges),
+            hertz: HertzCurve::default(),
         }
-        Ok(widened)
     }
 
-    pub(super) fn interferogram(&self) -> &Interferogram {
+    pub(crate) fn interferogram(&self) -> &Interferogram {
         &self.interferogram
     }
+}
 
-    /// Logs one frame's pressure, film and contact spots, and Hertz's contact.
-    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-        let nx = self.geometry.nx;
-        self.hertz.log_ring(stream, HERTZ, frame)?;
-        for map in self.shown.iter().filter(|map| map.is_first()) {
-            map.log(stream, frame)?;
+impl View for Maps {
+    fn widen(&mut self, stream: &Stream, _scene: Option<&Scene>, scope: &Scope) {
+        self.film = Look::of(Subject::Film, &scope.ranges);
+        for map in &mut self.maps {
+            map.raster
+                .widen(stream, Look::of(map.subject, &scope.ranges));
         }
-        let mut films = frame.film_m.chunks_exact(nx);
-        stream.log_classes(self.contact, |classes| {
-            Field::BottomUp(&frame.contact, nx).write_to(classes, |touches, classes| {
-                classes::of_row(
-                    &self.film,
-                    touches,
-                    films.next().unwrap_or_default(),
-                    classes,
-                );
-            });
-        })
     }
 
-    /// Logs what stands beside them in a tab of its own: interferogram, shear, roughness.
-    pub(super) fn log_beside(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-        for map in self.shown.iter().filter(|map| !map.is_first()) {
-            map.log(stream, frame)?;
+    /// Pressure, film and contact spots, and Hertz's contact.
+    fn log(&mut self, stream: &Stream, frame: &Frame) {
+        let nx = self.geometry.nx;
+        self.hertz.log_ring(stream, HERTZ, frame);
+        for map in self.maps.iter().filter(|map| map.is_first()) {
+            map.log(stream, frame);
         }
-        self.interferogram.log(stream, frame)
+        let mut films = frame.film_m.chunks_exact(nx);
+        let mut image = Vec::new();
+        Field::BottomUp(&frame.contact, nx).write_to(&mut image, |touches, classes| {
+            let film = films.next().unwrap_or_default();
+            classes::of_row(&self.film, touches, film, classes);
+        });
+        classes::log(stream, CONTACT, image);
+    }
+
+    /// What stands beside them in a tab of its own: interferogram, shear, roughness.
+    fn log_seldom(&mut self, stream: &Stream, frame: &Frame) {
+        for map in self.maps.iter().filter(|map| !map.is_first()) {
+            map.log(stream, frame);
+        }
+        self.interferogram.log(stream, frame);
+    }
+
+    fn rasters(&self) -> Vec<(&'static str, &RasterEntity)> {
+        let all = self.maps.iter();
+        all.map(|map| (map.entity, &map.raster)).collect()
     }
 }
 
 /// A pixel for each node.
-pub(super) fn pixels(g: Geometry) -> PixelField {
+pub(crate) fn pixels(g: Geometry) -> PixelField {
     PixelField {
         columns: g.nx,
         rows: g.ny,
@@ -172,7 +150,7 @@ pub(super) fn pixels(g: Geometry) -> PixelField {
 }
 
 /// The axes of every map.
-pub(super) fn plot_box(g: Geometry) -> PlotBox {
+pub(crate) fn plot_box(g: Geometry) -> PlotBox {
     let x = [g.x_min - 0.5 * g.dx, g.x_max() + 0.5 * g.dx];
     let y = [-g.y_max() - 0.5 * g.dy, -g.y_min + 0.5 * g.dy];
     PlotBox {

@@ -4,14 +4,14 @@ use super::colour::hillshade;
 use super::geometry::Geometry;
 
 /// Most columns and rows of the film's sheet: what a screen shows, few enough to keep files small.
-pub(super) const FINE: [usize; 2] = [96, 24];
+pub(crate) const FINE: [usize; 2] = [96, 24];
 /// Of the bodies' sheets, which only give the picture its frame.
-pub(super) const COARSE: [usize; 2] = [48, 24];
+pub(crate) const COARSE: [usize; 2] = [48, 24];
 
 /// Every so-many-th node of a window of the grid: from the plane y = 0 backwards (the front half is
 /// cut away), around the contact in x.
 #[derive(Debug, Clone)]
-pub(super) struct MeshWindow {
+pub(crate) struct MeshWindow {
     nodes: Vec<usize>,
     xy: Vec<[f32; 2]>,
     columns: usize,
@@ -21,7 +21,7 @@ pub(super) struct MeshWindow {
 
 impl MeshWindow {
     /// The window |x| ≤ `reach_x`, 0 ≤ y ≤ `reach_y`; `None` if it holds no whole cell.
-    pub(super) fn new(
+    pub(crate) fn new(
         g: Geometry,
         [reach_x, reach_y]: [f64; 2],
         [most_columns, most_rows]: [usize; 2],
@@ -55,24 +55,23 @@ impl MeshWindow {
     }
 
     /// Nodes of the frame's grid, row by row.
-    pub(super) fn nodes(&self) -> &[usize] {
+    pub(crate) fn nodes(&self) -> &[usize] {
         &self.nodes
     }
 
     /// x and y of the nodes.
-    pub(super) fn xy(&self) -> &[[f32; 2]] {
+    pub(crate) fn xy(&self) -> &[[f32; 2]] {
         &self.xy
     }
 
     /// The sheet's triangles.
-    pub(super) fn triangles(&self) -> Vec<[u32; 3]> {
+    pub(crate) fn triangles(&self) -> Vec<[u32; 3]> {
         triangles(self.columns, self.rows)
     }
 
     /// How bright each node of a sheet with these heights is lit.
-    pub(super) fn shades(&self, heights: &[f32], shades: &mut Vec<f32>) {
-        shades.clear();
-        shades.resize(heights.len(), 0.0);
+    pub(crate) fn shades(&self, heights: &[f32]) -> Vec<f32> {
+        let mut shades = vec![0.0; heights.len()];
         let row = |j: usize| &heights[j * self.columns..(j + 1) * self.columns];
         for (j, out) in shades.chunks_exact_mut(self.columns).enumerate() {
             let (front, back) = (j.saturating_sub(1), (j + 1).min(self.rows - 1));
@@ -82,16 +81,13 @@ impl MeshWindow {
             ];
             shade_row(row(j), [row(front), row(back)], per, out);
         }
+        shades
     }
 
-    /// Adds x, y and z of a sheet with these heights.
-    pub(super) fn place(&self, heights: &[f32], positions: &mut Vec<f32>) {
-        let from = positions.len();
-        positions.resize(from + 3 * self.xy.len(), 0.0);
+    /// x, y and z of a sheet with these heights.
+    pub(crate) fn places(&self, heights: &[f32]) -> impl Iterator<Item = [f32; 3]> {
         let places = self.xy.iter().zip(heights);
-        for (out, (&[x, y], &z)) in positions[from..].chunks_exact_mut(3).zip(places) {
-            out.copy_from_slice(&[x, y, z]);
-        }
+        places.map(|(&[x, y], &z)| [x, y, z])
     }
 }
 
@@ -111,7 +107,7 @@ dispatched! {
 }
 
 /// Two triangles for each cell of a sheet of `columns` by `rows` nodes.
-pub(super) fn triangles(columns: usize, rows: usize) -> Vec<[u32; 3]> {
+pub(crate) fn triangles(columns: usize, rows: usize) -> Vec<[u32; 3]> {
     let mut triangles = Vec::with_capacity(2 * (columns - 1) * (rows - 1));
     for j in 0..rows - 1 {
         for i in 0..columns - 1 {
@@ -156,24 +152,14 @@ mod tests {
             let most = window.triangles().into_iter().flatten().max();
             assert_eq!(most, Some((window.nodes().len() - 1) as u32));
             // A plane that rises with x is lit evenly, and less than the flat.
-            let shades = |heights: &[f32]| {
-                let mut shades = Vec::new();
-                window.shades(heights, &mut shades);
-                shades
-            };
-            let flat = shades(&vec![0.0; window.nodes().len()]);
+            let flat = window.shades(&vec![0.0; window.nodes().len()]);
             let plane: Vec<f32> = window.xy().iter().map(|[x, _]| 0.5 * x).collect();
-            let mut positions = Vec::new();
-            window.place(&plane, &mut positions);
-            assert_eq!(positions.len(), 3 * plane.len());
-            assert!(
-                positions
-                    .chunks(3)
-                    .zip(window.xy())
-                    .all(|(at, xy)| at[..2] == *xy)
-            );
-            assert!(positions.chunks(3).all(|at| at[2] == 0.5 * at[0]));
-            let lit = shades(&plane);
+            let places: Vec<[f32; 3]> = window.places(&plane).collect();
+            assert_eq!(places.len(), plane.len());
+            let of_nodes = places.iter().zip(window.xy());
+            assert!(of_nodes.into_iter().all(|(at, xy)| at[..2] == *xy));
+            assert!(places.iter().all(|at| at[2] == 0.5 * at[0]));
+            let lit = window.shades(&plane);
             assert!(
                 lit.iter()
                     .all(|shade| (shade - lit[0]).abs() < 1e-4 && *shade < flat[0])

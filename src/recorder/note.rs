@@ -23,7 +23,7 @@ const LENGTH_DIGITS: usize = 10;
 
 /// One of those lines.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) enum Note {
+pub(crate) enum Note {
     /// What the run began with.
     Origin {
         program: String,
@@ -51,7 +51,7 @@ pub(super) enum Note {
 
 impl Note {
     /// As the recording holds it.
-    pub(super) fn to_text(&self) -> String {
+    pub(crate) fn to_text(&self) -> String {
         // Strings, numbers and unit variants: nothing that JSON could not hold.
         let body = serde_json::to_string(self).unwrap_or_default();
         let digest = fnv(body.as_bytes());
@@ -59,7 +59,7 @@ impl Note {
     }
 
     /// Those in the bytes of a message; what does not agree with its digest is none.
-    pub(super) fn all_in(bytes: &[u8], mut take: impl FnMut(Self)) {
+    pub(crate) fn all_in(bytes: &[u8], mut take: impl FnMut(Self)) {
         let magic = MAGIC.as_bytes();
         let mut rest = bytes;
         let mut readings = MOST_READINGS * bytes.len();

@@ -1,15 +1,16 @@
 //! What images hold: values in half precision, and where their pixels lie in a view.
 
 use rerun::components::{Colormap, ImageBuffer, MagnificationFilter};
+use rerun::datatypes::Blob;
+use rerun::external::arrow::buffer::Buffer;
 use rerun::{AsComponents, DepthImage, Transform3D};
 
 use super::stream::Stream;
 use asperity_engine::math::number::nice_ceiling;
-use asperity_engine::observe::ObserveError;
 use asperity_picture::{Look, Ramp};
 
 /// Greatest number in half precision.
-pub(super) const MOST: f32 = 65_504.0;
+pub(crate) const MOST: f32 = 65_504.0;
 
 /// The viewer's map of those colours.
 fn colormap(ramp: Ramp) -> Colormap {
@@ -22,13 +23,13 @@ fn colormap(ramp: Ramp) -> Colormap {
 }
 
 /// Upper end of a look's range, in its unit.
-pub(super) fn top(look: &Look) -> f64 {
+pub(crate) fn top(look: &Look) -> f64 {
     // To SI and back a round number may lose its last bit.
     nice_ceiling(look.unit.of(look.range[1]))
 }
 
 /// Adds SI values in a look's unit and half precision, little-endian as the viewer wants them; what lies beyond.
-pub(super) fn store(look: &Look, field: Field, halves: &mut Vec<u16>) -> Beyond {
+fn store(look: &Look, field: Field, halves: &mut Vec<u16>) -> Beyond {
     let (factor, top) = (look.unit.per_si as f32, top(look) as f32);
     let mut beyond = Beyond::default();
     field.write_to(halves, |row, halves| {
@@ -37,37 +38,36 @@ pub(super) fn store(look: &Look, field: Field, halves: &mut Vec<u16>) -> Beyond 
     beyond
 }
 
-/// Same as bytes of their own.
-pub(super) fn stored(look: &Look, values_si: &[f32]) -> ImageBuffer {
-    let mut halves = Vec::with_capacity(values_si.len());
-    store(look, Field::TopDown(values_si), &mut halves);
-    let bytes: Vec<u8> = halves.into_iter().flat_map(u16::to_ne_bytes).collect();
-    ImageBuffer::from(bytes)
+/// Same as an image has them.
+pub(crate) fn stored(look: &Look, field: Field) -> (ImageBuffer, Beyond) {
+    let mut halves = Vec::new();
+    let beyond = store(look, field, &mut halves);
+    (ImageBuffer(Blob::from(Buffer::from_vec(halves))), beyond)
 }
 
 /// What of a picture lies beyond its ranges.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Beyond {
+pub(crate) struct Beyond {
     /// Samples above the colour range (by their size), which take the top colour.
-    pub(super) above: u64,
-    /// The greatest sample by its size, in the unit.
-    pub(super) greatest: f32,
+    pub(crate) above: u64,
+    /// The maximum sample by its size, in the unit.
+    pub(crate) maximum: f32,
     /// Samples that could not be stored as they are: too great, or no numbers.
-    pub(super) clipped: u64,
+    pub(crate) clipped: u64,
     /// By how much at most, in the unit.
-    pub(super) clipped_by: f32,
+    pub(crate) clipped_by: f32,
 }
 
 impl Beyond {
-    fn add(&mut self, (above, greatest): (u32, u32), row: &[f32], factor: f32) {
+    fn add(&mut self, (above, maximum): (u32, u32), row: &[f32], factor: f32) {
         self.above += u64::from(above);
-        let greatest = f32::from_bits(greatest);
-        if greatest <= MOST {
-            self.greatest = self.greatest.max(greatest);
+        let maximum = f32::from_bits(maximum);
+        if maximum <= MOST {
+            self.maximum = self.maximum.max(maximum);
             return;
         }
         for value in row.iter().map(|value| (value * factor).abs()) {
-            self.greatest = self.greatest.max(value);
+            self.maximum = self.maximum.max(value);
             // Of what is no number (which a field never holds by its contract) nobody knows by how much.
             if value > MOST || value.is_nan() {
                 self.clipped += 1;
@@ -77,10 +77,10 @@ impl Beyond {
     }
 
     /// Both.
-    pub(super) fn with(self, other: Self) -> Self {
+    pub(crate) fn with(self, other: Self) -> Self {
         Self {
             above: self.above + other.above,
-            greatest: self.greatest.max(other.greatest),
+            maximum: self.maximum.max(other.maximum),
             clipped: self.clipped + other.clipped,
             clipped_by: self.clipped_by.max(other.clipped_by),
         }
@@ -89,7 +89,7 @@ impl Beyond {
 
 /// Values of a picture, row by row.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Field<'a, T = f32> {
+pub(crate) enum Field<'a, T = f32> {
     /// As a picture has them.
     TopDown(&'a [T]),
     /// As a frame has them, so many a row: y points up.
@@ -99,7 +99,7 @@ pub(super) enum Field<'a, T = f32> {
 impl<T> Field<'_, T> {
     /// Adds a pixel for each value, through a function of rows. Rows are read as they lie: a frame comes from
     /// another core, and reading it backwards takes three times as long.
-    pub(super) fn write_to<P: Copy + Default>(
+    pub(crate) fn write_to<P: Copy + Default>(
         self,
         pixels: &mut Vec<P>,
         mut write: impl FnMut(&[T], &mut [P]),
@@ -122,14 +122,14 @@ impl<T> Field<'_, T> {
 }
 
 dispatched! {
-    /// Half precision, to the nearest, ties to even. How many sizes are above `top`, and the bits of the greatest.
+    /// Half precision, to the nearest, ties to even. How many sizes are above `top`, and the bits of the maximum.
     fn store_row(row: &[f32], factor: f32, top: f32, halves: &mut [u16]) -> (u32, u32) {
-        let (mut above, mut greatest) = (0, 0);
+        let (mut above, mut maximum) = (0, 0);
         for (out, value) in halves.iter_mut().zip(row) {
             let bits = (value * factor).to_bits();
             let size = bits & 0x7fff_ffff;
             above += u32::from(size > top.to_bits());
-            greatest = if size > greatest { size } else { greatest };
+            maximum = if size > maximum { size } else { maximum };
             // From 2^-14 on: fewer digits and another bias of the exponent.
             let normal = (size + 0x0fff + ((size >> 13) & 1)).wrapping_sub(0x3800_0000) >> 13;
             // Below, halves are multiples of 2^-24, as singles are between 0.5 and 1: the sum rounds.
@@ -139,24 +139,24 @@ dispatched! {
             let half = if size > 0x7f80_0000 { 0x7e00 } else { half };
             *out = ((((bits >> 16) & 0x8000) | half) as u16).to_le();
         }
-        (above, greatest)
+        (above, maximum)
     }
 }
 
 /// A rectangle of pixels in a view: the centres of the first and the last pixel of both axes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct PixelField {
-    pub(super) columns: usize,
-    pub(super) rows: usize,
+pub(crate) struct PixelField {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
     /// Centre of the upper left pixel.
-    pub(super) first: [f64; 2],
+    pub(crate) first: [f64; 2],
     /// Size of a pixel.
-    pub(super) size: [f64; 2],
+    pub(crate) size: [f64; 2],
 }
 
 impl PixelField {
     /// From pixel units of the image to the view.
-    pub(super) fn transform(&self) -> Transform3D {
+    pub(crate) fn transform(&self) -> Transform3D {
         let corner = [
             (self.first[0] - 0.5 * self.size[0]) as f32,
             (self.first[1] - 0.5 * self.size[1]) as f32,
@@ -165,29 +165,29 @@ impl PixelField {
         Transform3D::from_translation_scale(corner, [self.size[0] as f32, self.size[1] as f32, 1.0])
     }
 
-    pub(super) fn resolution(&self) -> [u32; 2] {
+    pub(crate) fn resolution(&self) -> [u32; 2] {
         [self.columns as u32, self.rows as u32]
     }
 }
 
 /// Logs how an image looks and where it is.
-pub(super) fn log_styled(
+pub(crate) fn log_styled(
     stream: &Stream,
     entity: &str,
     style: &dyn AsComponents,
     pixels: &PixelField,
-) -> Result<(), ObserveError> {
-    stream.log_static(entity, &[style, &pixels.transform()])
+) {
+    stream.log_static(entity, &[style, &pixels.transform()]);
 }
 
-pub(super) fn styled(look: &Look) -> DepthImage {
+pub(crate) fn styled(look: &Look) -> DepthImage {
     DepthImage::update_fields()
         .with_meter(1.0)
         .with_colormap(colormap(look.ramp()))
         .with_magnification_filter(MagnificationFilter::Linear)
 }
 
-pub(super) fn range(look: &Look) -> DepthImage {
+pub(crate) fn range(look: &Look) -> DepthImage {
     let top = top(look);
     let low = if look.range[0] < 0.0 { -top } else { 0.0 };
     DepthImage::update_fields().with_depth_range([low, top])
@@ -263,7 +263,7 @@ mod tests {
         let (back, beyond) = stored(&unit, &[0.0, 7e4, -1e5, 65_504.0, 1.0]);
         assert_eq!(back, [0.0, 65_504.0, -65_504.0, 65_504.0, 1.0]);
         assert_eq!((beyond.clipped, beyond.clipped_by), (2, 1e5 - MOST));
-        assert_eq!((beyond.above, beyond.greatest), (3, 1e5));
+        assert_eq!((beyond.above, beyond.maximum), (3, 1e5));
         let (_, beyond) = stored(&unit, &[f32::NAN, f32::INFINITY]);
         assert_eq!(beyond.clipped, 2);
     }

@@ -3,41 +3,41 @@
 //! The viewer draws none of these, so they are lines and labels in the same view. The vertical axis
 //! of a view points down.
 
+use rerun::components::LineStrip2D;
 use rerun::{Color, LineStrips2D, Points2D, Radius};
 
 use super::colour::{GREY, WHITE, faded, for_text};
 use super::geometry::Geometry;
 use super::stream::{Holds, Stream};
 use asperity_engine::math::number::{self, MM, plain, sig};
-use asperity_engine::observe::ObserveError;
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::Frame;
 
 /// Upper edge of titles above a plot, as a share of its height: clear of the label of a tick at its top, which begins at
 /// [`HALF_LABEL`], also where a plot is only 170 points high and text takes 17.
-pub(super) const TITLES: f64 = 0.15;
+pub(crate) const TITLES: f64 = 0.15;
 /// Half the height of a label: it stands so far above its tick.
-pub(super) const HALF_LABEL: f64 = 0.022;
+pub(crate) const HALF_LABEL: f64 = 0.022;
 
 /// A tick: where, in units of the view, and its text.
-pub(super) type AxisTick = (f64, String);
+pub(crate) type AxisTick = (f64, String);
 
 /// The frame of a plot.
 #[derive(Debug, Clone, Default)]
-pub(super) struct PlotBox {
+pub(crate) struct PlotBox {
     /// Left and right edge.
-    pub(super) x: [f64; 2],
+    pub(crate) x: [f64; 2],
     /// Upper and lower edge (y points down).
-    pub(super) y: [f64; 2],
-    pub(super) x_ticks: Vec<AxisTick>,
-    pub(super) left_ticks: Vec<AxisTick>,
-    pub(super) right_ticks: Vec<AxisTick>,
+    pub(crate) y: [f64; 2],
+    pub(crate) x_ticks: Vec<AxisTick>,
+    pub(crate) left_ticks: Vec<AxisTick>,
+    pub(crate) right_ticks: Vec<AxisTick>,
     /// Below the horizontal ticks.
-    pub(super) x_title: String,
+    pub(crate) x_title: String,
     /// Above the frame, each centred at a share of its width.
-    pub(super) titles: Vec<(f64, String, [u8; 3])>,
-    pub(super) left_colour: Option<[u8; 3]>,
-    pub(super) right_colour: Option<[u8; 3]>,
+    pub(crate) titles: Vec<(f64, String, [u8; 3])>,
+    pub(crate) left_colour: Option<[u8; 3]>,
+    pub(crate) right_colour: Option<[u8; 3]>,
 }
 
 impl PlotBox {
@@ -50,7 +50,7 @@ impl PlotBox {
     }
 
     /// What the view must show: the frame with its ticks and, on request, a legend at the right.
-    pub(super) fn bounds(&self, right: Margin) -> [[f64; 2]; 2] {
+    pub(crate) fn bounds(&self, right: Margin) -> [[f64; 2]; 2] {
         let (w, h) = (self.width(), self.height());
         let right = match right {
             Margin::Plain => 0.05,
@@ -68,7 +68,7 @@ impl PlotBox {
     }
 
     /// Of a plane below the surface: x as the nodes have it, depth down with the ticks that a height is given.
-    pub(super) fn below_surface(g: Geometry, ticks: impl FnOnce(f64) -> Vec<AxisTick>) -> Self {
+    pub(crate) fn below_surface(g: Geometry, ticks: impl FnOnce(f64) -> Vec<AxisTick>) -> Self {
         /// Height of the picture over its width.
         const HEIGHT: f64 = 0.72;
         let x = [g.x_min - 0.5 * g.dx, g.x_max() + 0.5 * g.dx];
@@ -85,24 +85,14 @@ impl PlotBox {
     }
 
     /// Where a place lies in it, its depth as a share of the height; `None` beside it.
-    pub(super) fn at_depth(&self, x_m: f64, share: f64) -> Option<[f32; 2]> {
+    pub(crate) fn at_depth(&self, x_m: f64, share: f64) -> Option<[f32; 2]> {
         let (x, [left, right]) = (x_m * MM, self.x);
         let inside = (left..=right).contains(&x);
         inside.then_some([x as f32, (self.y[1] * share) as f32])
     }
 
-    /// Draws the frame once for the whole recording.
-    pub(super) fn log(&self, stream: &Stream, entity: &str) -> Result<(), ObserveError> {
-        self.log_that(stream, entity, Holds::Always)
-    }
-
     /// Draws the frame, for good or until the next.
-    pub(super) fn log_that(
-        &self,
-        stream: &Stream,
-        entity: &str,
-        holds: Holds,
-    ) -> Result<(), ObserveError> {
+    pub(crate) fn log(&self, stream: &Stream, entity: &str, holds: Holds) {
         let (w, h) = (self.width(), self.height());
         let [left, right] = self.x;
         let [top, bottom] = self.y;
@@ -114,26 +104,17 @@ impl PlotBox {
             [left, top],
         ]];
         let tick = 0.015 * w.min(h).abs();
-        strips.extend(
-            self.x_ticks
-                .iter()
-                .map(|(x, _)| vec![[*x, bottom], [*x, bottom + tick]]),
-        );
-        strips.extend(
-            self.left_ticks
-                .iter()
-                .map(|(y, _)| vec![[left - tick, *y], [left, *y]]),
-        );
-        strips.extend(
-            self.right_ticks
-                .iter()
-                .map(|(y, _)| vec![[right, *y], [right + tick, *y]]),
-        );
+        let below = self.x_ticks.iter();
+        strips.extend(below.map(|(x, _)| vec![[*x, bottom], [*x, bottom + tick]]));
+        let at_left = self.left_ticks.iter();
+        strips.extend(at_left.map(|(y, _)| vec![[left - tick, *y], [left, *y]]));
+        let at_right = self.right_ticks.iter();
+        strips.extend(at_right.map(|(y, _)| vec![[right, *y], [right + tick, *y]]));
         let lines = LineStrips2D::new(strips.iter().map(|strip| points(strip)))
             .with_colors([Color::from(GREY)])
             .with_radii([Radius::new_ui_points(0.75)])
             .with_draw_order(20.0);
-        stream.log_that(&format!("{entity}/frame"), &lines, holds)?;
+        stream.log_for(holds, &format!("{entity}/frame"), &lines);
 
         let left_colour = self.left_colour.unwrap_or(WHITE);
         let right_colour = self.right_colour.unwrap_or(WHITE);
@@ -158,13 +139,13 @@ impl PlotBox {
         for (share, title, colour) in &self.titles {
             labels.add([left + share * w, top - TITLES * h], title, *colour);
         }
-        labels.log_that(stream, &format!("{entity}/labels"), holds)
+        labels.log(stream, &format!("{entity}/labels"), holds);
     }
 }
 
 /// What is drawn at the right of a plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Margin {
+pub(crate) enum Margin {
     /// Nothing.
     Plain,
     /// Ticks.
@@ -175,7 +156,7 @@ pub(super) enum Margin {
 
 /// Texts at places.
 #[derive(Debug, Default)]
-pub(super) struct Labels {
+pub(crate) struct Labels {
     at: Vec<[f32; 2]>,
     texts: Vec<String>,
     colours: Vec<Color>,
@@ -183,7 +164,7 @@ pub(super) struct Labels {
 
 impl Labels {
     /// A text whose upper edge is centred at a place; nothing for an empty text.
-    pub(super) fn add(&mut self, at: [f64; 2], text: &str, colour: [u8; 3]) {
+    pub(crate) fn add(&mut self, at: [f64; 2], text: &str, colour: [u8; 3]) {
         if !text.is_empty() {
             self.at.push([at[0] as f32, at[1] as f32]);
             self.texts.push(text.to_owned());
@@ -191,30 +172,21 @@ impl Labels {
         }
     }
 
-    pub(super) fn log(&self, stream: &Stream, entity: &str) -> Result<(), ObserveError> {
-        self.log_that(stream, entity, Holds::Always)
-    }
-
     /// For good or until the next.
-    pub(super) fn log_that(
-        &self,
-        stream: &Stream,
-        entity: &str,
-        holds: Holds,
-    ) -> Result<(), ObserveError> {
+    pub(crate) fn log(&self, stream: &Stream, entity: &str, holds: Holds) {
         let labels = Points2D::new(self.at.iter().copied())
             .with_radii([Radius::new_scene_units(0.0)])
             .with_colors(self.colours.iter().copied())
             .with_labels(self.texts.iter().map(String::as_str))
             .with_show_labels(true)
             .with_draw_order(30.0);
-        stream.log_that(entity, &labels, holds)
+        stream.log_for(holds, entity, &labels);
     }
 }
 
 /// Where Hertz's contact is at the load of now. Logged when it has changed.
 #[derive(Debug, Default)]
-pub(super) struct HertzCurve {
+pub(crate) struct HertzCurve {
     shown_m: Option<[f64; 2]>,
 }
 
@@ -226,14 +198,9 @@ impl HertzCurve {
     }
 
     /// From above: an ellipse, or the two edges of a line.
-    pub(super) fn log_ring(
-        &mut self,
-        stream: &Stream,
-        entity: &str,
-        frame: &Frame,
-    ) -> Result<(), ObserveError> {
+    pub(crate) fn log_ring(&mut self, stream: &Stream, entity: &str, frame: &Frame) {
         if !self.changes(frame) {
-            return Ok(());
+            return;
         }
         let (a, b) = (frame.a_m * MM, frame.b_m * MM);
         // Of a line a stretch that lies inside of every picture, those of a part of the domain too.
@@ -249,27 +216,28 @@ impl HertzCurve {
             ],
             ContactKind::Line => vec![vec![[-a, -high], [-a, high]], vec![[a, -high], [a, high]]],
         };
-        stream.log(entity, &edges(&strips))
+        stream.log_for(Holds::FromNow, entity, &edges(&strips));
     }
 
     /// In a section whose surface is the upper edge of a plot: both edges, and the half-width in figures.
-    pub(super) fn log_width(
+    pub(crate) fn log_width(
         &mut self,
         stream: &Stream,
         entity: &str,
-        (plot, frame): (&PlotBox, &Frame),
-    ) -> Result<(), ObserveError> {
+        plot: &PlotBox,
+        frame: &Frame,
+    ) {
         if !self.changes(frame) {
-            return Ok(());
+            return;
         }
         let (a, top) = (frame.a_m * MM, plot.y[0]);
         let end = top + 0.04 * plot.height();
         let strips = [-a, a].map(|x| vec![[x, top], [x, end]]);
-        stream.log(entity, &edges(&strips))?;
+        stream.log_for(Holds::FromNow, entity, &edges(&strips));
         let mut label = Labels::default();
         let at = [0.5 * (plot.x[0] + plot.x[1]), top - TITLES * plot.height()];
         label.add(at, &format!("a = {} µm", sig(frame.a_m * 1e6, 4)), GREY);
-        label.log_that(stream, &format!("{entity}/label"), Holds::FromNow)
+        label.log(stream, &format!("{entity}/label"), Holds::FromNow);
     }
 }
 
@@ -281,15 +249,60 @@ fn edges(strips: &[Vec<[f64; 2]>]) -> LineStrips2D {
 }
 
 /// How a point that moves looks: its colour and how many points its radius has.
-pub(super) fn dot(colour: [u8; 3], radius: f32) -> Points2D {
+pub(crate) fn dot(colour: [u8; 3], radius: f32) -> Points2D {
     Points2D::update_fields()
         .with_radii([Radius::new_ui_points(radius)])
         .with_colors([faded(colour, u8::MAX)])
         .with_draw_order(26.0)
 }
 
+/// How a curve looks: its colour and how many points its radius has.
+pub(crate) fn line(colour: [u8; 3], radius: f32) -> LineStrips2D {
+    LineStrips2D::update_fields()
+        .with_colors([faded(colour, u8::MAX)])
+        .with_radii([Radius::new_ui_points(radius)])
+        .with_draw_order(12.0)
+}
+
+/// Curves that are drawn point by point.
+#[derive(Debug, Default)]
+pub(crate) struct Strips {
+    finished: Vec<Vec<[f32; 2]>>,
+    drawn: Vec<[f32; 2]>,
+}
+
+impl Strips {
+    /// A single curve.
+    pub(crate) fn of(curve: &[[f32; 2]]) -> Self {
+        Self {
+            finished: Vec::new(),
+            drawn: curve.to_vec(),
+        }
+    }
+
+    /// Goes on to a point.
+    pub(crate) fn to(&mut self, at: [f32; 2]) {
+        self.drawn.push(at);
+    }
+
+    /// Ends a curve; a single point is none.
+    pub(crate) fn lift(&mut self) {
+        let drawn = std::mem::take(&mut self.drawn);
+        if drawn.len() > 1 {
+            self.finished.push(drawn);
+        }
+    }
+
+    /// Logs them: they take the place of those before.
+    pub(crate) fn log(mut self, stream: &Stream, entity: &str) {
+        self.lift();
+        let strips = self.finished.into_iter().map(LineStrip2D::from_iter);
+        stream.log(entity, &LineStrips2D::update_fields().with_strips(strips));
+    }
+}
+
 /// The viewer's single-precision points.
-pub(super) fn points(strip: &[[f64; 2]]) -> Vec<[f32; 2]> {
+pub(crate) fn points(strip: &[[f64; 2]]) -> Vec<[f32; 2]> {
     strip
         .iter()
         .map(|at| at.map(|value| value as f32))
@@ -297,7 +310,7 @@ pub(super) fn points(strip: &[[f64; 2]]) -> Vec<[f32; 2]> {
 }
 
 /// Ticks at round values; `place` says where in the view a value lies.
-pub(super) fn ticks_at(values: &[f64], place: impl Fn(f64) -> f64) -> Vec<AxisTick> {
+pub(crate) fn ticks_at(values: &[f64], place: impl Fn(f64) -> f64) -> Vec<AxisTick> {
     values
         .iter()
         .map(|&value| (place(value), plain(value)))

@@ -4,28 +4,23 @@
 //! Bodies are a coarse picture of the stress in them, which is smooth; the oil is drawn as a column for each place, as fine
 //! as the surfaces are. Together a frame takes some 7 kB of the file.
 
-use rerun::{LineStrips2D, Points2D, Radius};
+use rerun::components::LineStrip2D;
+use rerun::{Color, LineStrips2D, Points2D, Radius};
 
-use super::centre_line::line;
 use super::colour::{GREEN, GREY, WHITE};
+use super::entities::profile::{MOTION, OIL, POINT, POINT_LINE, PROFILE, STRESS, SURFACES};
 use super::geometry::Geometry;
 use super::picture::{Field, PixelField};
-use super::plot::{AxisTick, Labels, Margin, PlotBox, dot, ticks_at};
+use super::plot::{AxisTick, Labels, Margin, PlotBox, Strips, dot, line, ticks_at};
 use super::raster::{Height, RasterEntity};
 use super::stream::{Holds, Stream};
-use super::waiting::Curves;
+use super::view::View;
 use asperity_engine::math::number::{MM, UM, plain, sig, ticks};
-use asperity_engine::observe::ObserveError;
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::Frame;
 use asperity_picture::profile::{DEEP, Matter, ProfileColumn, ProfileScale, SurfaceProfile, oil};
 use asperity_picture::{CONTACT, Look, Ranges, Scope, Subject};
 
-pub(super) const PROFILE: &str = "profile_y0";
-const STRESS: &str = "profile_y0/effective_stress_GPa";
-const OIL: &str = "profile_y0/oil";
-const POINT: &str = "profile_y0/material_point";
-const MOTION: &str = "profile_y0/motion";
 /// Height of the picture over its width.
 const HEIGHT: f64 = 0.46;
 /// Room between it and the trace, over its width: titles of the trace.
@@ -38,29 +33,27 @@ const COLUMNS: usize = 192;
 const ROUND: f64 = 0.62;
 
 /// The picture of both surfaces.
-pub(super) struct ProfileEntity {
+pub(crate) struct ProfileEntity {
     scale: ProfileScale,
     ranges: Ranges,
     plot: PlotBox,
     /// The lower end of the line under the point: of the trace.
     foot: f64,
     stress: Option<RasterEntity>,
-    surfaces: [Curves; 2],
-    oil: Curves,
-    under: Curves,
     /// Speeds that the arrows tell, m/s.
     shown_m_s: Option<[f64; 2]>,
 }
 
 impl ProfileEntity {
     /// Sets up the picture above a trace, where there is one.
-    pub(super) fn new(
+    pub(crate) fn new(
         stream: &Stream,
         geometry: Geometry,
-        (scene, first): (&Scene, &Frame),
+        scene: &Scene,
+        first: &Frame,
         scope: &Scope,
         trace: Option<&PlotBox>,
-    ) -> Result<Self, ObserveError> {
+    ) -> Self {
         let x = [geometry.x_min, geometry.x_max()];
         let w = x[1] - x[0];
         let lower = trace.map_or(0.0, |trace| trace.y[0] - BETWEEN * w);
@@ -82,50 +75,37 @@ impl ProfileEntity {
             // Its axes change with its heights: here stands only its frame.
             RasterEntity::new(stream, STRESS, look, pixels, &plot, Height::Fixed)
         });
-        log_looks(stream, ROUND * w / COLUMNS as f64)?;
-        let surface = |body: u8| {
-            let entity = format!("{PROFILE}/surface_{body}");
-            stream.log_static(entity.as_str(), &line(WHITE, 1.0).with_draw_order(22.0))?;
-            Ok(stream.curves(entity))
-        };
+        log_looks(stream, ROUND * w / COLUMNS as f64);
+        for surface in SURFACES {
+            stream.log_static(surface, &line(WHITE, 1.0).with_draw_order(22.0));
+        }
+        stream.log_static(POINT_LINE, &line(GREEN, 0.75));
         let mut this = Self {
             scale: ProfileScale::of(scene, 0.0, 0.0),
             ranges: scope.ranges,
             foot: trace.map_or(plot.y[1], |trace| trace.y[1]),
             plot,
-            stress: stress.transpose()?,
-            surfaces: [surface(1)?, surface(2)?],
-            oil: stream.curves(OIL),
-            under: {
-                let under = format!("{POINT}/under");
-                stream.log_static(under.as_str(), &line(GREEN, 0.75))?;
-                stream.curves(under)
-            },
+            stress,
             shown_m_s: None,
         };
-        this.reach(stream, scene, scope)?;
-        Ok(this)
+        this.draw_to(stream, scene, scope);
+        this
     }
 
     /// Draws it to what can come from now on.
-    pub(super) fn reach(
-        &mut self,
-        stream: &Stream,
-        scene: &Scene,
-        scope: &Scope,
-    ) -> Result<(), ObserveError> {
+    fn draw_to(&mut self, stream: &Stream, scene: &Scene, scope: &Scope) {
         let [one, two] = scope.to_come.amplitude_m;
         self.ranges = scope.ranges;
         self.scale = ProfileScale::of(scene, scope.ranges.film_m, one.max(two));
         if let Some(stress) = &mut self.stress {
-            stress.reach(stream, Look::of(Subject::EffectiveStress, &scope.ranges))?;
+            stress.widen(stream, Look::of(Subject::EffectiveStress, &scope.ranges));
         }
-        self.axes()
-            .log_that(stream, &format!("{PROFILE}/axes"), Holds::FromNow)
+        let axes = format!("{PROFILE}/axes");
+        self.axes().log(stream, &axes, Holds::FromNow);
     }
 
     /// What its view must show: the picture with its legend, and what comes under it.
-    pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
+    pub(crate) fn bounds(&self) -> [[f64; 2]; 2] {
         let [x, [top, _]] = self.plot.bounds(Margin::Legend);
         let width = self.plot.x[1] - self.plot.x[0];
         [x, [top, self.foot + 0.13 * width]]
@@ -166,88 +146,67 @@ impl ProfileEntity {
         f64::midpoint(top, bottom) - 0.5 * share * (bottom - top)
     }
 
-    /// Logs one frame.
-    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-        let a_mm = frame.a_m * MM;
-        let x = self.plot.x.map(|x| x / a_mm);
-        let Some(profile) = SurfaceProfile::new(frame, self.scale, x, &self.ranges) else {
-            return Ok(());
-        };
-        if let Some(stress) = &self.stress {
-            stress.log(stream, Field::TopDown(&stresses(&profile)))?;
-        }
-        let columns: Vec<ProfileColumn> = profile.columns(COLUMNS).collect();
-        self.log_oil(stream, &columns, a_mm)?;
-        for (body, curves) in self.surfaces.into_iter().enumerate() {
-            stream.log_curves(curves, |pen| {
-                for column in &columns {
-                    let z = column.surfaces[body];
-                    if z.abs() <= self.scale.half_m {
-                        pen.to([(column.x * a_mm) as f32, self.at(z) as f32]);
-                    } else {
-                        pen.lift();
-                    }
-                }
-            })?;
-        }
-        self.log_point(stream, (&profile, frame))?;
-        self.log_motion(stream, frame)
+    /// A column of oil, or of contact, for each place.
+    fn log_oil(&self, stream: &Stream, columns: &[ProfileColumn], a_mm: f64) {
+        let round = ROUND * (self.plot.x[1] - self.plot.x[0]) / COLUMNS as f64;
+        let strips = columns.iter().map(|column| {
+            let x = (column.x * a_mm) as f32;
+            let [lower, upper] = column.surfaces.map(|z| self.at(z));
+            // Its round ends reach as far as the surfaces.
+            let ends = round.min(0.5 * (lower - upper));
+            LineStrip2D::from_iter([[x, (lower - ends) as f32], [x, (upper + ends) as f32]])
+        });
+        let colours = columns.iter().map(|column| match column.gap {
+            Matter::Oil(share) => Color::from(oil(share)),
+            Matter::Touching | Matter::Body(..) => Color::from(CONTACT),
+        });
+        let strips = LineStrips2D::update_fields()
+            .with_strips(strips)
+            .with_colors(colours);
+        stream.log(OIL, &strips);
     }
 
-    /// A column of oil, or of contact, for each place.
-    fn log_oil(
-        &self,
-        stream: &Stream,
-        columns: &[ProfileColumn],
-        a_mm: f64,
-    ) -> Result<(), ObserveError> {
-        let round = ROUND * (self.plot.x[1] - self.plot.x[0]) / COLUMNS as f64;
-        stream.log_curves(self.oil, |pen| {
-            for column in columns {
-                let x = (column.x * a_mm) as f32;
-                let [lower, upper] = column.surfaces.map(|z| self.at(z));
-                // Its round ends reach as far as the surfaces.
-                let ends = round.min(0.5 * (lower - upper));
-                pen.draw(&[[x, (lower - ends) as f32], [x, (upper + ends) as f32]]);
-                pen.tint(match column.gap {
-                    Matter::Oil(share) => oil(share),
-                    _ => CONTACT,
-                });
+    /// A body's surface, where it is in the picture.
+    fn surface(&self, columns: &[ProfileColumn], body: usize, a_mm: f64) -> Strips {
+        let mut strips = Strips::default();
+        for column in columns {
+            let z = column.surfaces[body];
+            if z.abs() <= self.scale.half_m {
+                strips.to([(column.x * a_mm) as f32, self.at(z) as f32]);
+            } else {
+                strips.lift();
             }
-        })
+        }
+        strips
     }
 
     /// The point on its body's surface, and a line from it to its trace.
-    fn log_point(
-        &self,
-        stream: &Stream,
-        (profile, frame): (&SurfaceProfile, &Frame),
-    ) -> Result<(), ObserveError> {
+    fn log_point(&self, stream: &Stream, profile: &SurfaceProfile, frame: &Frame) {
         let Some(point) = &frame.material_point else {
-            return Ok(());
+            return;
         };
         let x = point.x_m * MM;
         let [left, right] = self.plot.x;
         let inside = (left..=right).contains(&x);
         let surfaces = profile.surfaces(point.x_m / frame.a_m);
         let at = [x, self.at(surfaces[usize::from(point.body == 2)])].map(|v| v as f32);
-        stream.log_curves(self.under, |pen| {
-            if inside {
-                pen.to(at);
-                pen.to([at[0], self.foot as f32]);
-            }
-        })?;
+        let mut line = Strips::default();
+        if inside {
+            line.to(at);
+            line.to([at[0], self.foot as f32]);
+        }
+        line.log(stream, POINT_LINE);
         let here = Points2D::update_fields().with_positions(inside.then_some(at));
-        stream.log(POINT, &here)
+        stream.log(POINT, &here);
     }
 
     /// Which way the bodies go and how fast, where that has changed.
-    fn log_motion(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    fn log_motion(&mut self, stream: &Stream, frame: &Frame) {
         let m = &frame.metrics;
         let (u, s) = (m.entrainment_m_s, m.slide_roll);
         let now = [u * (1.0 - 0.5 * s), u * (1.0 + 0.5 * s)];
         if self.shown_m_s == Some(now) {
-            return Ok(());
+            return;
         }
         self.shown_m_s = Some(now);
         // In the middle of the contact bodies fill the picture to its edges.
@@ -260,7 +219,33 @@ impl ProfileEntity {
         ] {
             labels.add([x, y], &moves(body, now[body - 1]), WHITE);
         }
-        labels.log_that(stream, MOTION, Holds::FromNow)
+        labels.log(stream, MOTION, Holds::FromNow);
+    }
+}
+
+impl View for ProfileEntity {
+    fn widen(&mut self, stream: &Stream, scene: Option<&Scene>, scope: &Scope) {
+        if let Some(scene) = scene {
+            self.draw_to(stream, scene, scope);
+        }
+    }
+
+    fn log(&mut self, stream: &Stream, frame: &Frame) {
+        let a_mm = frame.a_m * MM;
+        let x = self.plot.x.map(|x| x / a_mm);
+        let Some(profile) = SurfaceProfile::new(frame, self.scale, x, &self.ranges) else {
+            return;
+        };
+        if let Some(stress) = &self.stress {
+            stress.log(stream, Field::TopDown(&stresses(&profile)));
+        }
+        let columns: Vec<ProfileColumn> = profile.columns(COLUMNS).collect();
+        self.log_oil(stream, &columns, a_mm);
+        for (body, entity) in SURFACES.into_iter().enumerate() {
+            self.surface(&columns, body, a_mm).log(stream, entity);
+        }
+        self.log_point(stream, &profile, frame);
+        self.log_motion(stream, frame);
     }
 }
 
@@ -285,12 +270,12 @@ fn stresses(profile: &SurfaceProfile) -> Vec<f32> {
 }
 
 /// What stays: how oil and the point look.
-fn log_looks(stream: &Stream, radius_mm: f64) -> Result<(), ObserveError> {
+fn log_looks(stream: &Stream, radius_mm: f64) {
     let oil = LineStrips2D::update_fields()
         .with_radii([Radius::new_scene_units(radius_mm as f32)])
         .with_draw_order(15.0);
-    stream.log_static(OIL, &oil)?;
-    stream.log_static(POINT, &dot(GREEN, 6.0))
+    stream.log_static(OIL, &oil);
+    stream.log_static(POINT, &dot(GREEN, 6.0));
 }
 
 #[cfg(test)]

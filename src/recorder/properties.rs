@@ -1,34 +1,20 @@
 //! Name and properties of a recording: what a viewer lists of it beside others, and what scripts read without
 //! reading its frames.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use rerun::external::arrow::array::{ArrayRef, Float64Array, StringArray};
-use rerun::log::{Chunk, PendingRow};
-use rerun::time::TimePoint;
-use rerun::{
-    AnyValues, AsComponents as _, Color, EntityPath, RecordingInfo, Scalars, SeriesLines,
-    TextDocument,
-};
+use rerun::{AnyValues, EntityPath, RecordingInfo};
 
-use super::bound::{self, RecordingEnd};
-use super::colour::curve;
-use super::gathered::chunk_of;
 use super::stream::Stream;
-use super::text;
 use asperity_engine::math::number::sig;
-use asperity_engine::observe::{ObserveError, RunContext};
+use asperity_engine::observe::RunContext;
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::{Frame, Metrics, Summary};
 
-/// What is asked for.
-const SCENE: &str = "scene";
 /// What came out.
-const RESULT: &str = "result";
-
-fn entity(name: &str) -> EntityPath {
-    EntityPath::properties().join(&EntityPath::from(name))
+pub(crate) fn result() -> EntityPath {
+    EntityPath::properties().join(&EntityPath::from("result"))
 }
 
 /// Values under names; those that are not known are left out.
@@ -53,7 +39,7 @@ impl NamedValues {
 }
 
 /// Name and scene, before the first frame.
-pub(super) fn log_scene(stream: &Stream, context: &RunContext) -> Result<(), ObserveError> {
+pub(crate) fn log_scene(stream: &Stream, context: &RunContext) {
     let scene = &context.scene;
     let title = if scene.title.is_empty() {
         "A passage"
@@ -67,7 +53,7 @@ pub(super) fn log_scene(stream: &Stream, context: &RunContext) -> Result<(), Obs
         sig(p_hertz_gpa, 3)
     );
     let info = RecordingInfo::update_fields().with_name(name);
-    stream.log_static(EntityPath::properties(), &info)?;
+    stream.log_static(EntityPath::properties(), &info);
     let load = match scene.kind() {
         ContactKind::Point => "load_N",
         ContactKind::Line => "load_N_per_m",
@@ -80,18 +66,19 @@ pub(super) fn log_scene(stream: &Stream, context: &RunContext) -> Result<(), Obs
         .number(load, scene.force_n())
         .number("p_Hertz_GPa", p_hertz_gpa)
         .number("nodes", scene.grid.nodes as f64);
-    stream.log_static(entity(SCENE), &values.0)
+    let entity = EntityPath::properties().join(&EntityPath::from("scene"));
+    stream.log_static(entity, &values.0);
 }
 
 /// The scalars of the last frame; a frame itself goes back to where it is filled again.
-pub(super) struct Last {
-    pub(super) step: u64,
+pub(crate) struct Last {
+    pub(crate) step: u64,
     p_hertz_pa: f64,
     metrics: Metrics,
 }
 
 impl Last {
-    pub(super) fn of(frame: &Frame) -> Self {
+    pub(crate) fn of(frame: &Frame) -> Self {
         Self {
             step: frame.step,
             p_hertz_pa: frame.p_hertz_pa,
@@ -101,7 +88,7 @@ impl Last {
 }
 
 /// What the last frame says, at the end: also of a run that was stopped, or of the explorer's.
-pub(super) fn log_result(stream: &Stream, last: &Last, clipped: u64) -> Result<(), ObserveError> {
+pub(crate) fn log_result(stream: &Stream, last: &Last, clipped: u64) {
     let m = &last.metrics;
     let life = m.life.as_ref();
     let values = NamedValues::default()
@@ -119,17 +106,12 @@ pub(super) fn log_result(stream: &Stream, last: &Last, clipped: u64) -> Result<(
         )
         .number("load_factor", life.map(|life| life.load_factor))
         .number("clipped_samples", clipped as f64);
-    stream.log_static(entity(RESULT), &values.0)
+    stream.log_static(result(), &values.0);
 }
 
-/// Writes the result of a run, with what only its companion tells (the extrapolated life), into its finished recording
-/// in the place of what its last frame said.
-///
-/// # Errors
-/// When the file is no recording, or there is no room for the new one beside it; it is then as it was.
-pub fn note_summary(path: &Path, summary: &Summary) -> Result<(), ObserveError> {
-    let s = summary;
-    let values = NamedValues::default()
+/// What the summary of a run says, with what only its companion tells (the extrapolated life).
+pub(crate) fn summary_values(s: &Summary) -> AnyValues {
+    NamedValues::default()
         .text("scene", &s.scene)
         .number("steps", s.steps as f64)
         .number("p_Hertz_GPa", s.p_hertz_pa * 1e-9)
@@ -140,58 +122,6 @@ pub fn note_summary(path: &Path, summary: &Summary) -> Result<(), ObserveError> 
         .number("life_relative_low", s.life_relative_low)
         .number("life_relative_high", s.life_relative_high)
         .number("load_factor", s.load_factor)
-        .number("life_extrapolated", s.life_extrapolated);
-    let failed = |reason: String| {
-        let reason = format!("its result could not be added to its properties: {reason}");
-        ObserveError::new(path.display().to_string(), reason)
-    };
-    let row = PendingRow::from_iter(TimePoint::default(), values.0.as_serialized_batches());
-    let chunk: Chunk = row
-        .into_chunk(entity(RESULT))
-        .map_err(|error| failed(error.to_string()))?;
-    let more = |ending: &RecordingEnd| {
-        let mut chunks = vec![chunk];
-        chunks.extend(band(summary, ending)?);
-        Ok(chunks)
-    };
-    bound::bind(path, more).map(drop).map_err(failed)
-}
-
-/// Lines of the band that holds with what the mesh costs, which nobody knew while the run went on.
-const BAND: &str = "life/log10_relative/with_the_meshs_error";
-
-/// The life's band with the mesh's error: as lines over the whole run, and in the last texts.
-fn band(summary: &Summary, ending: &RecordingEnd) -> Result<Vec<Chunk>, String> {
-    let ends = summary.life_relative_low.zip(summary.life_relative_high);
-    let ends = ends.filter(|(low, high)| *low > 0.0 && high.is_finite());
-    let (Some((low, high)), Some(moments)) = (ends, ending.moments) else {
-        return Ok(Vec::new());
-    };
-    let words = |error: &dyn std::fmt::Display| error.to_string();
-    let style = SeriesLines::new()
-        .with_colors([curve::GREEN; 2].map(Color::from))
-        .with_widths([1.2; 2])
-        .with_names(["low, with the mesh's error", "high, with the mesh's error"]);
-    let style = PendingRow::from_iter(TimePoint::default(), style.as_serialized_batches());
-    let mut chunks = vec![
-        style
-            .into_chunk(BAND.into())
-            .map_err(|error| words(&error))?,
-    ];
-    let values = [low, high, low, high].map(f64::log10);
-    let columns = Scalars::new(values)
-        .columns([2, 2])
-        .map_err(|error| words(&error))?;
-    chunks.push(chunk_of(BAND.into(), &moments, columns).map_err(|error| words(&error))?);
-    let [low, high] = [low, high].map(|end| sig(end, 3));
-    for (entity, text) in &ending.texts {
-        let text = text::with_band(text, &format!("{low} to {high}"));
-        let text = TextDocument::update_fields().with_text(text);
-        let columns = text
-            .columns_of_unit_batches()
-            .map_err(|error| words(&error))?;
-        let chunk = chunk_of((*entity).into(), &moments[1..], columns);
-        chunks.push(chunk.map_err(|error| words(&error))?);
-    }
-    Ok(chunks)
+        .number("life_extrapolated", s.life_extrapolated)
+        .0
 }

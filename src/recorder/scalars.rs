@@ -6,21 +6,16 @@
 use rerun::{Scalars, SeriesLines};
 use serde_json::Value;
 
+use super::entities::GRID;
+use super::entities::slice::DEPTHS;
 use super::stream::Stream;
-use asperity_engine::observe::ObserveError;
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::{
     CATALOGUE, Frame, LifeEstimate, LubricationRegime, MaterialPoint, Metrics, PassedPeak,
 };
 
-/// The row of a step.
-pub(super) const SCALARS: &str = "scalars_si";
-/// Nodes and lengths, once.
-pub(super) const GRID: &str = "grid_si";
-/// Names of its numbers.
+/// Names of the grid's numbers.
 const GRID_NAMES: [&str; 7] = ["line", "nx", "ny", "x_min_m", "dx_m", "y_min_m", "dy_m"];
-/// Depths of the slice, once, m.
-pub(super) const DEPTHS: &str = "slice_y0/depths_m";
 
 /// How a number is read off a frame.
 type FrameNumber = fn(&Frame) -> Option<f64>;
@@ -46,7 +41,7 @@ const MORE: [(&str, FrameNumber); 10] = [
 ];
 
 /// From the regime in which oil does nothing to that in which it does all.
-pub(super) fn code(regime: LubricationRegime) -> f64 {
+pub(crate) fn code(regime: LubricationRegime) -> f64 {
     match regime {
         LubricationRegime::Dry => 0.0,
         LubricationRegime::Boundary => 1.0,
@@ -65,13 +60,13 @@ fn regime(code: f64) -> LubricationRegime {
 }
 
 /// Names of a row's numbers.
-pub(super) fn names() -> impl Iterator<Item = &'static str> {
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     let catalogue = CATALOGUE.iter().map(|quantity| quantity.name);
     catalogue.chain(MORE.iter().map(|(name, _)| *name))
 }
 
 /// Adds a step's row.
-pub(super) fn add(frame: &Frame, row: &mut Vec<f64>) {
+pub(crate) fn add(frame: &Frame, row: &mut Vec<f64>) {
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
     row.extend(
         CATALOGUE
@@ -82,22 +77,21 @@ pub(super) fn add(frame: &Frame, row: &mut Vec<f64>) {
 }
 
 /// Logs nodes and lengths, and the depths of the slice.
-pub(super) fn log_grid(stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+pub(crate) fn log_grid(stream: &Stream, frame: &Frame) {
     let line = f64::from(u8::from(frame.kind == ContactKind::Line));
     let (nx, ny) = (frame.nx as f64, frame.ny as f64);
     let lengths = [frame.x_min_m, frame.dx_m, frame.y_min_m, frame.dy_m];
     let values = [line, nx, ny].into_iter().chain(lengths);
     let names = SeriesLines::update_fields().with_names(GRID_NAMES);
-    stream.log_static(GRID, &Scalars::new(values))?;
-    stream.log_static(GRID, &names)?;
-    match &frame.slice {
-        Some(slice) => stream.log_static(DEPTHS, &Scalars::new(slice.depths_m.iter().copied())),
-        None => Ok(()),
+    stream.log_static(GRID, &Scalars::new(values));
+    stream.log_static(GRID, &names);
+    if let Some(slice) = &frame.slice {
+        stream.log_static(DEPTHS, &Scalars::new(slice.depths_m.iter().copied()));
     }
 }
 
 /// A frame without fields of those nodes and lengths; `None`: they are not what was logged.
-pub(super) fn grid_of(values: &[f64]) -> Option<Frame> {
+pub(crate) fn grid_of(values: &[f64]) -> Option<Frame> {
     let [line, nx, ny, x_min_m, dx_m, y_min_m, dy_m] = values.try_into().ok()?;
     let nodes = |value: f64| (1.0..=65_536.0).contains(&value).then_some(value as usize);
     let lengths = [x_min_m, dx_m, y_min_m, dy_m];
@@ -121,7 +115,7 @@ pub(super) fn grid_of(values: &[f64]) -> Option<Frame> {
 }
 
 /// Reads rows back, whichever of the names a file has.
-pub(super) struct RowReader {
+pub(crate) struct RowReader {
     names: Vec<String>,
     metrics: Value,
     life: Value,
@@ -129,7 +123,7 @@ pub(super) struct RowReader {
 
 impl RowReader {
     /// Of rows whose numbers have these names.
-    pub(super) fn new(names: Vec<String>) -> Self {
+    pub(crate) fn new(names: Vec<String>) -> Self {
         Self {
             names,
             // Plain data: nothing that JSON could not hold.
@@ -139,13 +133,13 @@ impl RowReader {
     }
 
     /// A number of a row; `None` where it is not known.
-    pub(super) fn number(&self, row: &[f64], name: &str) -> Option<f64> {
+    pub(crate) fn number(&self, row: &[f64], name: &str) -> Option<f64> {
         let at = self.names.iter().position(|own| own == name)?;
         row.get(at).copied().filter(|value| value.is_finite())
     }
 
     /// Gives a frame the scalars of a row; `None` where they make none.
-    pub(super) fn fill(&self, row: &[f64], frame: &mut Frame) -> Option<()> {
+    pub(crate) fn fill(&self, row: &[f64], frame: &mut Frame) -> Option<()> {
         let of = |name: &str| self.number(row, name);
         frame.step = of("step")? as u64;
         (frame.time_s, frame.passages) = (of("time_s")?, of("passages")?);

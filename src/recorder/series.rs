@@ -1,23 +1,20 @@
 //! Scalars against time, each with its unit in the name.
 //!
 //! Values that are known in the same steps share an entity (45 bytes in place of 223, and a chunk less a second); what is
-//! not known yet is left out. Columns of a second are sent at once: row by row they would cost more than all pictures.
+//! not known yet is left out.
 
-use rerun::{Color, EntityPath, SeriesLines};
+use rerun::{Color, SeriesLines};
 
 use super::colour::curve::{BLUE, GREEN, GREY, OLIVE, ORANGE, PURPLE, SKY, VERMILION};
-use super::moment::Moment;
+use super::entities::SCALARS;
+use super::entities::series::{LIFE, POINT_CYCLES, YIELDED};
 use super::scalars;
 use super::stream::Stream;
-use asperity_engine::observe::ObserveError;
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::{CATALOGUE, CautionCode, Frame, Quantity, named};
 
 /// Smallest error that is drawn: errors are plotted as logarithms, and what is less is as good as none.
 const LEAST_ERROR: f64 = 1e-12;
-
-/// Yielded for good.
-pub(super) const YIELDED: &str = "series/yielded_um3";
 
 /// Colours of lines, each with its quantity.
 type Coloured = &'static [(&'static Quantity, [u8; 3])];
@@ -61,7 +58,7 @@ static GROUPS: [(&str, CurveGroup); 27] = [
     ("convergence/iterations", Linear(&[(named("newton_iterations"), SKY), (named("linear_iterations"), ORANGE), (named("retries"), VERMILION), (named("converged"), GREEN)])),
     ("series/stress_GPa", Linear(&[(named("sigma_eff_max_pa"), PURPLE)])),
     ("series/lambda_ratio", Linear(&[(named("lambda_ratio"), SKY)])),
-    ("life/log10_relative", Logarithms(&[(named("life_relative_low"), GREY), (named("life_relative"), VERMILION), (named("life_relative_high"), GREY)])),
+    (LIFE, Logarithms(&[(named("life_relative_low"), GREY), (named("life_relative"), VERMILION), (named("life_relative_high"), GREY)])),
     ("life/log10_factors", Logarithms(&[(named("cycle_factor"), SKY), (named("peak_factor"), ORANGE), (named("traction_factor"), GREEN)])),
     ("life/log10_factors/load", Logarithms(&[(named("load_factor"), PURPLE)])),
     ("life/relative", Linear(&[(named("life_relative"), VERMILION)])),
@@ -73,7 +70,7 @@ static GROUPS: [(&str, CurveGroup); 27] = [
         let point = frame.material_point.map(|point| [point.pressure_pa, point.effective_pa, point.tau_xz_pa]);
         out.extend(point.into_iter().flatten().map(|stress| stress * 1e-9));
     })),
-    ("material_point/cycles/counted", Linear(&[(named("point_cycles_counted"), VERMILION)])),
+    (POINT_CYCLES, Linear(&[(named("point_cycles_counted"), VERMILION)])),
     ("material_point/cycles/formula", Made(&[("expected on average, n", GREY)], |frame, out| {
         let n = [frame.metrics.n_body_1, frame.metrics.n_body_2];
         out.extend(frame.material_point.and_then(|point| n[usize::from(point.body != 1)]));
@@ -189,7 +186,7 @@ fn line(code: CautionCode) -> Option<usize> {
 }
 
 /// Colours of the lines of an entity, in their order.
-pub(super) fn colours(entity: &str) -> Vec<[u8; 3]> {
+pub(crate) fn colours(entity: &str) -> Vec<[u8; 3]> {
     let of = GROUPS.iter().find(|(name, _)| *name == entity);
     let lines = of.map(|(_, curves)| curves.lines(ContactKind::Point));
     let lines = lines.into_iter().flatten();
@@ -204,7 +201,7 @@ fn groups(kind: ContactKind) -> impl Iterator<Item = (String, CurveGroup)> {
     };
     let groups = GROUPS.iter().filter(move |(entity, _)| *entity != other);
     let groups = groups.map(|(entity, curves)| ((*entity).to_owned(), *curves));
-    let all = (scalars::SCALARS.to_owned(), CurveGroup::All);
+    let all = (SCALARS.to_owned(), CurveGroup::All);
     groups
         .chain(
             by_itself()
@@ -214,12 +211,12 @@ fn groups(kind: ContactKind) -> impl Iterator<Item = (String, CurveGroup)> {
 }
 
 /// What has a view of its own.
-pub(super) fn by_itself() -> impl Iterator<Item = &'static Quantity> {
+pub(crate) fn by_itself() -> impl Iterator<Item = &'static Quantity> {
     CATALOGUE.iter().filter(|quantity| quantity.by_itself)
 }
 
 /// `series/traction_max_GPa` of `traction_max_pa`.
-pub(super) fn entity(quantity: &Quantity, kind: ContactKind) -> String {
+pub(crate) fn entity(quantity: &Quantity, kind: ContactKind) -> String {
     let unit = match quantity.dimension.unit(kind).name {
         "" => return format!("series/{}", quantity.name),
         "%" => "percent".to_owned(),
@@ -233,102 +230,40 @@ pub(super) fn entity(quantity: &Quantity, kind: ContactKind) -> String {
     format!("series/{}_{unit}", stem.unwrap_or(quantity.name))
 }
 
-/// A row of a group in the finished file and each of its values, bytes: times and names are compressed (19 to 25 were
-/// measured, the footer included), digits are not.
-const ROW: f64 = 27.0;
-const VALUE: f64 = 8.0;
-
-/// Steps that are collected at most before they are sent: a few hundred kilobytes.
-const MOST_WAITING: usize = 1024;
-
-/// The series of a recording, with what waits to be sent.
-pub(super) struct Series {
-    columns: Vec<SeriesColumn>,
-    waiting: usize,
-    /// What all of them so far will take of the finished file, bytes.
-    weight: f64,
-}
-
-struct SeriesColumn {
-    entity: EntityPath,
-    curves: CurveGroup,
-    lines: usize,
-    moments: Vec<Moment>,
-    values: Vec<f64>,
-}
+/// The series of a recording.
+pub(crate) struct Series(Vec<(String, CurveGroup)>);
 
 impl Series {
     /// Logs names and colours, once for the whole recording, and collects from there on.
-    pub(super) fn new(stream: &Stream, kind: ContactKind) -> Result<Self, ObserveError> {
+    pub(crate) fn new(stream: &Stream, kind: ContactKind) -> Self {
         Self::chosen(stream, kind, |_| true)
     }
 
     /// Same for the entities that `keep` says.
-    pub(super) fn chosen(
-        stream: &Stream,
-        kind: ContactKind,
-        keep: impl Fn(&str) -> bool,
-    ) -> Result<Self, ObserveError> {
-        let mut columns = Vec::new();
-        for (entity, curves) in groups(kind).filter(|(entity, _)| keep(entity)) {
+    pub(crate) fn chosen(stream: &Stream, kind: ContactKind, keep: impl Fn(&str) -> bool) -> Self {
+        let kept = groups(kind).filter(|(entity, _)| keep(entity));
+        let kept: Vec<(String, CurveGroup)> = kept.collect();
+        for (entity, curves) in &kept {
             let lines = curves.lines(kind);
-            columns.push(SeriesColumn {
-                entity: EntityPath::from(entity.as_str()),
-                curves,
-                lines: lines.len(),
-                moments: Vec::new(),
-                values: Vec::new(),
-            });
             let colours = lines.iter().map(|(_, colour)| Color::from(*colour));
             let style = SeriesLines::new()
                 .with_colors(colours)
                 .with_widths(lines.iter().map(|_| 1.8));
             let style = style.with_names(lines.into_iter().map(|(name, _)| name));
-            stream.log_static(entity, &style)?;
+            stream.log_static(entity.as_str(), &style);
         }
-        Ok(Self {
-            columns,
-            waiting: 0,
-            weight: 0.0,
-        })
+        Self(kept)
     }
 
-    /// Takes up a step's scalars.
-    pub(super) fn follow(&mut self, frame: &Frame) {
-        let now = Moment::new(frame.step, frame.time_s, frame.passages);
-        for column in &mut self.columns {
-            let before = column.values.len();
-            column.curves.add(frame, &mut column.values);
-            if column.values.len() > before {
-                column.moments.push(now);
-                self.weight += ROW + VALUE * column.lines as f64;
+    /// Logs a step's scalars.
+    pub(crate) fn log(&self, stream: &Stream, frame: &Frame) {
+        let mut values = Vec::new();
+        for (entity, curves) in &self.0 {
+            values.clear();
+            curves.add(frame, &mut values);
+            if !values.is_empty() {
+                stream.log_scalars(entity, &values);
             }
         }
-        self.waiting += 1;
-    }
-
-    /// What the scalars so far will take of the finished file, bytes.
-    pub(super) fn weight(&self) -> f64 {
-        self.weight
-    }
-
-    /// Whether so many steps wait that they should not wait for the next tick.
-    pub(super) fn is_full(&self) -> bool {
-        self.waiting >= MOST_WAITING
-    }
-
-    /// Sends what waits.
-    pub(super) fn send(&mut self, stream: &Stream) -> Result<(), ObserveError> {
-        self.waiting = 0;
-        for column in &mut self.columns {
-            if column.moments.is_empty() {
-                continue;
-            }
-            let entity = column.entity.clone();
-            stream.log_columns(entity, &column.moments, &column.values, column.lines)?;
-            column.moments.clear();
-            column.values.clear();
-        }
-        Ok(())
     }
 }

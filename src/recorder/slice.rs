@@ -1,151 +1,201 @@
-//! The plane y = 0 below body 1's surface: x to the right, depth down, a row for each of the solver's depths.
+//! The plane y = 0 below body 1's surface: x to the right, depth down.
 //!
-//! To scale it is drawn in the 3-D view; here the rows that crowd below the surface, where pits start, have room
-//! ([`Depths`]), and each holds what the solver computed.
+//! To scale it is drawn in the 3-D view; here the rows that crowd below the surface, where pits start, have room. There is
+//! one for each of the solver's depths ([`Depths`]), which holds what was computed. Of a line contact the same is drawn over
+//! the logarithm of the depth ([`LogDepths`]), resampled for looking at: the crests' micrometres and the half-width's
+//! tenths of a millimetre in one picture. The viewer has no such axis, so the ticks say the depths.
 
 use rerun::{LineStrips2D, Points2D, Radius};
 
 use super::colour::{GREEN, faded};
-use super::depths::Depths;
+use super::depths::{Depths, LogDepths};
+use super::entities::{slice, slice_over_log_depth as over_log};
 use super::geometry::Geometry;
 use super::picture::{Field, PixelField};
-use super::plot::{HertzCurve, PlotBox, dot};
+use super::plot::{AxisTick, HertzCurve, PlotBox, dot};
 use super::raster::{Height, RasterEntity};
-use super::stream::Stream;
-use super::text::Widened;
+use super::stream::{Holds, Stream};
+use super::view::View;
 use asperity_engine::math::number::MM;
-use asperity_engine::observe::ObserveError;
-use asperity_engine::sim::Frame;
-use asperity_picture::{Look, Ranges, Subject};
+use asperity_engine::scene::{ContactKind, Scene};
+use asperity_engine::sim::{Frame, MaterialPoint, StressSlice};
+use asperity_picture::{Look, Ranges, Scope, Subject};
 
-pub(super) const EFFECTIVE: &str = "slice_y0/effective_stress_GPa";
-pub(super) const TAU_XZ: &str = "slice_y0/tau_xz_GPa";
-/// The followed material point.
-pub(super) const POINT: &str = "slice_y0/material_point";
-const POINT_NOW: &str = "slice_y0/material_point/now";
-/// Where the stress is greatest.
-pub(super) const PEAK: &str = "slice_y0/greatest_stress";
-/// Hertz's contact on the surface.
-pub(super) const HERTZ: &str = "slice_y0/hertz_width";
+/// Rows of the picture over the logarithm, and its columns at most.
+const LOG_ROWS: usize = 48;
+const LOG_COLUMNS: usize = 160;
 
-/// The images of the slice.
-pub(super) struct Slice {
+/// The rows of the picture.
+enum Rows {
+    /// A row for each depth that was computed.
+    Computed(Depths),
+    /// Rows evenly over the logarithm, of every so-many-th column.
+    OverLog { depths: LogDepths, every: usize },
+}
+
+impl Rows {
+    fn share(&self, depth_m: f64) -> Option<f64> {
+        match self {
+            Self::Computed(depths) => depths.share(depth_m),
+            Self::OverLog { depths, .. } => depths.share(depth_m),
+        }
+    }
+
+    fn ticks(&self, height: f64) -> Vec<AxisTick> {
+        match self {
+            Self::Computed(depths) => depths.ticks(height),
+            Self::OverLog { depths, .. } => depths.ticks(height),
+        }
+    }
+
+    /// Columns and rows of a picture of so many nodes along x, and the nodes of a column.
+    fn size(&self, nx: usize) -> (usize, usize, usize) {
+        match self {
+            Self::Computed(depths) => (nx, depths.len(), 1),
+            Self::OverLog { every, .. } => (nx.div_ceil(*every), LOG_ROWS, *every),
+        }
+    }
+
+    fn are_of(&self, slice: &StressSlice, nx: usize) -> bool {
+        match self {
+            Self::Computed(depths) => depths.hold(slice, nx),
+            Self::OverLog { depths, .. } => depths.hold(slice, nx),
+        }
+    }
+}
+
+/// Its entities.
+struct SliceEntities {
+    effective: &'static str,
+    tau_xz: &'static str,
+    point: &'static str,
+    peak: &'static str,
+    hertz: &'static str,
+}
+
+const COMPUTED: SliceEntities = SliceEntities {
+    effective: slice::EFFECTIVE,
+    tau_xz: slice::TAU_XZ,
+    point: slice::POINT_NOW,
+    peak: slice::PEAK,
+    hertz: slice::HERTZ,
+};
+const OVER_LOG: SliceEntities = SliceEntities {
+    effective: over_log::EFFECTIVE,
+    tau_xz: over_log::TAU_XZ,
+    point: over_log::POINT,
+    peak: over_log::PEAK,
+    hertz: over_log::HERTZ,
+};
+
+/// The pictures of the plane.
+pub(crate) struct Slice {
     geometry: Geometry,
-    depths: Depths,
+    entities: SliceEntities,
+    rows: Rows,
     effective: RasterEntity,
     tau_xz: RasterEntity,
     plot: PlotBox,
     hertz: HertzCurve,
-    /// Depth of the path that was logged last.
+    /// Depth of the followed point's path that was logged last.
     path_m: Option<f64>,
 }
 
 impl Slice {
-    /// Sets up the slice from the first frame; `None` where the scene computes none.
-    pub(super) fn new(
+    /// A row for each depth; `None` where the scene computes no stress.
+    pub(crate) fn computed(
         stream: &Stream,
         geometry: Geometry,
         first: &Frame,
         ranges: &Ranges,
-    ) -> Result<Option<Self>, ObserveError> {
-        let Some(slice) = &first.slice else {
-            return Ok(None);
-        };
-        let Some(depths) = Depths::down_to(&slice.depths_m, f64::INFINITY) else {
-            return Ok(None);
-        };
-        let plot = PlotBox::below_surface(geometry, |height| depths.ticks(height));
-        let row_height = plot.y[1] / depths.len() as f64;
+    ) -> Option<Self> {
+        let depths = Depths::down_to(&first.slice.as_ref()?.depths_m, f64::INFINITY)?;
+        let rows = Rows::Computed(depths);
+        Some(Self::new(stream, geometry, COMPUTED, rows, ranges))
+    }
+
+    /// Over the logarithm of the depth; `None` of a point contact, and where no stress is computed.
+    pub(crate) fn over_log(
+        stream: &Stream,
+        geometry: Geometry,
+        first: &Frame,
+        ranges: &Ranges,
+    ) -> Option<Self> {
+        let slice = first.slice.as_ref();
+        let slice = slice.filter(|_| geometry.kind == ContactKind::Line)?;
+        let depths = LogDepths::over(&slice.depths_m, LOG_ROWS)?;
+        let every = geometry.nx.div_ceil(LOG_COLUMNS);
+        let rows = Rows::OverLog { depths, every };
+        Some(Self::new(stream, geometry, OVER_LOG, rows, ranges))
+    }
+
+    fn new(
+        stream: &Stream,
+        geometry: Geometry,
+        entities: SliceEntities,
+        rows: Rows,
+        ranges: &Ranges,
+    ) -> Self {
+        let plot = PlotBox::below_surface(geometry, |height| rows.ticks(height));
+        let (columns, n_rows, every) = rows.size(geometry.nx);
+        let row_height = plot.y[1] / n_rows as f64;
         let pixels = PixelField {
-            columns: geometry.nx,
-            rows: depths.len(),
+            columns,
+            rows: n_rows,
             first: [geometry.x_min, 0.5 * row_height],
-            size: [geometry.dx, row_height],
+            size: [geometry.dx * every as f64, row_height],
         };
-        stream.log_static(POINT_NOW, &dot(GREEN, 5.0))?;
-        stream.log_static(PEAK, &dot([u8::MAX; 3], 3.5).with_draw_order(25.0))?;
+        stream.log_static(entities.point, &dot(GREEN, 5.0));
+        let peak = dot([u8::MAX; 3], 3.5).with_draw_order(25.0);
+        stream.log_static(entities.peak, &peak);
         let image = |entity, subject| {
             let look = Look::of(subject, ranges);
             RasterEntity::new(stream, entity, look, pixels, &plot, Height::Fixed)
         };
-        Ok(Some(Self {
+        Self {
             geometry,
-            effective: image(EFFECTIVE, Subject::EffectiveStress)?,
-            tau_xz: image(TAU_XZ, Subject::ShearStress)?,
-            depths,
+            effective: image(entities.effective, Subject::EffectiveStress),
+            tau_xz: image(entities.tau_xz, Subject::ShearStress),
+            entities,
+            rows,
             plot,
             hertz: HertzCurve::default(),
             path_m: None,
-        }))
+        }
     }
 
-    pub(super) fn plot(&self) -> &PlotBox {
+    pub(crate) fn plot(&self) -> &PlotBox {
         &self.plot
     }
 
-    /// Widens the ranges from now on, as [`Maps::reach`](super::maps::Maps::reach).
-    pub(super) fn reach(
-        &mut self,
-        stream: &Stream,
-        ranges: &Ranges,
-    ) -> Result<Vec<Widened>, ObserveError> {
-        let mut widened = Vec::new();
-        for (entity, raster, subject) in [
-            (EFFECTIVE, &mut self.effective, Subject::EffectiveStress),
-            (TAU_XZ, &mut self.tau_xz, Subject::ShearStress),
-        ] {
-            let look = Look::of(subject, ranges);
-            let tops = raster.reach(stream, look)?;
-            widened.extend(tops.map(|tops| (entity, tops, look.unit.name)));
+    /// The slice of a frame, if it has the depths that were set up.
+    fn slice<'a>(&self, frame: &'a Frame) -> Option<&'a StressSlice> {
+        let slice = frame.slice.as_ref();
+        slice.filter(|slice| self.rows.are_of(slice, self.geometry.nx))
+    }
+
+    fn log_field(&self, stream: &Stream, image: &RasterEntity, field: &[f32]) {
+        match &self.rows {
+            Rows::Computed(_) => image.log(stream, Field::TopDown(field)),
+            Rows::OverLog { depths, every } => {
+                let rows = depths.resample(field, self.geometry.nx, *every);
+                image.log(stream, Field::TopDown(&rows));
+            }
         }
-        Ok(widened)
-    }
-
-    /// The images, for the notes in the recording and for what is told of them.
-    pub(super) fn rasters(&self) -> [(&'static str, &RasterEntity); 2] {
-        [(EFFECTIVE, &self.effective), (TAU_XZ, &self.tau_xz)]
-    }
-
-    /// Logs one frame's slice. A frame without a slice changes nothing.
-    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-        let nx = self.geometry.nx;
-        let Some(slice) = frame.slice.as_ref().filter(|s| self.depths.hold(s, nx)) else {
-            return Ok(());
-        };
-        self.hertz.log_width(stream, HERTZ, (&self.plot, frame))?;
-        self.effective
-            .log(stream, Field::TopDown(&slice.effective_pa))?;
-        self.log_peak(stream, frame)?;
-        self.log_point(stream, frame)
-    }
-
-    /// Same for the shear, which has a picture of its own in another tab.
-    pub(super) fn log_shear(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-        let nx = self.geometry.nx;
-        let Some(slice) = frame.slice.as_ref().filter(|s| self.depths.hold(s, nx)) else {
-            return Ok(());
-        };
-        self.tau_xz.log(stream, Field::TopDown(&slice.tau_xz_pa))
     }
 
     /// Where a place lies in the view; `None` outside of the picture.
     fn place(&self, x_m: f64, depth_m: f64) -> Option<[f32; 2]> {
-        self.plot.at_depth(x_m, self.depths.share(depth_m)?)
+        self.plot.at_depth(x_m, self.rows.share(depth_m)?)
     }
 
-    /// A dot where the effective stress is greatest.
-    fn log_peak(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-        let metrics = &frame.metrics;
-        let place = metrics.sigma_eff_max_x_m.zip(metrics.sigma_eff_max_depth_m);
-        let at = place.and_then(|(x, depth)| self.place(x, depth));
-        stream.log(PEAK, &Points2D::update_fields().with_positions(at))
+    fn log_dot(&self, stream: &Stream, entity: &str, at: Option<(f64, f64)>) {
+        let at = at.and_then(|(x_m, depth_m)| self.place(x_m, depth_m));
+        stream.log(entity, &Points2D::update_fields().with_positions(at));
     }
 
-    /// The followed point and the depth on which it travels.
-    fn log_point(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
-        let Some(point) = frame.material_point.filter(|point| point.body == 1) else {
-            return Ok(());
-        };
+    /// The depth on which the followed point travels, where it has changed.
+    fn log_path(&mut self, stream: &Stream, point: MaterialPoint) {
         let ends = self.plot.x.map(|x| self.place(x / MM, point.depth_m));
         if let [Some(left), Some(right)] = ends
             && self.path_m != Some(point.depth_m)
@@ -155,9 +205,52 @@ impl Slice {
                 .with_colors([faded(GREEN, 130)])
                 .with_radii([Radius::new_ui_points(0.5)])
                 .with_draw_order(18.0);
-            stream.log(&format!("{POINT}/path"), &path)?;
+            stream.log_for(Holds::FromNow, &format!("{}/path", slice::POINT), &path);
         }
-        let here = self.place(point.x_m, point.depth_m);
-        stream.log(POINT_NOW, &Points2D::update_fields().with_positions(here))
+    }
+}
+
+impl View for Slice {
+    fn widen(&mut self, stream: &Stream, _scene: Option<&Scene>, scope: &Scope) {
+        let look = |subject| Look::of(subject, &scope.ranges);
+        self.effective.widen(stream, look(Subject::EffectiveStress));
+        self.tau_xz.widen(stream, look(Subject::ShearStress));
+    }
+
+    /// Effective stress, where it is greatest, and the followed point. A frame without a slice changes nothing.
+    fn log(&mut self, stream: &Stream, frame: &Frame) {
+        let Some(slice) = self.slice(frame) else {
+            return;
+        };
+        self.hertz
+            .log_width(stream, self.entities.hertz, &self.plot, frame);
+        self.log_field(stream, &self.effective, &slice.effective_pa);
+        let m = &frame.metrics;
+        let peak = m.sigma_eff_max_x_m.zip(m.sigma_eff_max_depth_m);
+        self.log_dot(stream, self.entities.peak, peak);
+        let point = frame.material_point.filter(|point| point.body == 1);
+        if let (Some(point), Rows::Computed(_)) = (point, &self.rows) {
+            self.log_path(stream, point);
+        }
+        let here = point.map(|point| (point.x_m, point.depth_m));
+        self.log_dot(stream, self.entities.point, here);
+    }
+
+    /// Shear has a picture of its own in another tab.
+    fn log_seldom(&mut self, stream: &Stream, frame: &Frame) {
+        if let Some(slice) = self.slice(frame) {
+            self.log_field(stream, &self.tau_xz, &slice.tau_xz_pa);
+        }
+    }
+
+    fn rasters(&self) -> Vec<(&'static str, &RasterEntity)> {
+        match self.rows {
+            Rows::Computed(_) => vec![
+                (self.entities.effective, &self.effective),
+                (self.entities.tau_xz, &self.tau_xz),
+            ],
+            // Those beside it have the same ranges.
+            Rows::OverLog { .. } => Vec::new(),
+        }
     }
 }

@@ -1,79 +1,78 @@
-//! The stream that is recorded to: opening, logging, closing, and the errors of each.
-
-mod handles;
+//! The stream that is recorded to: opening, logging, closing, and the errors of each. Rows are put together by the
+//! library's batcher.
 
 use std::cell::{Cell, RefCell};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use re_log_types::LogMsg;
-use rerun::external::arrow::array::Array as _;
-use rerun::log::{Chunk, ChunkBatcherConfig, PendingRow};
-use rerun::sink::LogSink as _;
+use rerun::log::{ChunkBatcherConfig, PendingRow};
 use rerun::time::TimePoint;
 use rerun::{
     AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, Scalars,
-    SerializedComponentBatch,
+    SerializedComponentBatch, TextDocument,
 };
 
 use super::destination::Destination;
 use super::file::RecordingFile;
-use super::gathered::chunk_of;
 use super::live::{self, Live};
 use super::moment::{Moment, check_clock};
-use super::waiting::Waiting;
-use super::weight::{MESSAGE, TEXT};
+use super::note::Note;
+use super::size::SizeEstimate;
 use asperity_engine::observe::{ObserveError, Overwrite};
 
 /// Name under which viewers group recordings and remember layouts.
-pub(super) const APPLICATION: &str = "asperity";
-/// Most bytes that wait for a viewer; logging waits when there are more.
-const WAITING_BYTES: u64 = 32 * 1024 * 1024;
-/// How often a live stream sends what waits.
-const LIVE_TICK: Duration = Duration::from_millis(50);
+pub(crate) const APPLICATION: &str = "asperity";
+/// How often a live stream sends rows, and the most bytes that wait for a viewer: beyond them logging waits.
+const LIVE_BATCHES: ChunkBatcherConfig = ChunkBatcherConfig {
+    flush_tick: Duration::from_millis(50),
+    max_bytes_in_flight: 32 * 1024 * 1024,
+    ..ChunkBatcherConfig::DEFAULT
+};
+/// A file's rows are flushed by the recorder, which then notes how far the file goes.
+const FILE_BATCHES: ChunkBatcherConfig = ChunkBatcherConfig {
+    flush_tick: Duration::MAX,
+    ..ChunkBatcherConfig::DEFAULT
+};
+/// A file is flushed this often: with a frame that waits in the queue, `kill -9` loses less than a second.
+const FLUSH_TICK: Duration = Duration::from_millis(700);
 /// Longest wait for a viewer to take the last bytes.
 const LIVE_CLOSE_TIMEOUT: Duration = Duration::from_secs(3);
-/// Longest wait for the last bytes on closing.
-const CLOSE_TIMEOUT: Duration = Duration::from_mins(1);
-/// What is logged is written at least this often: with a frame that waits in the queue, `kill -9` loses less than a second.
-const TICK: Duration = Duration::from_millis(700);
+/// Longest wait for a file to take what was logged.
+const FLUSH_TIMEOUT: Duration = Duration::from_mins(1);
 
 /// `enabled` is set because the variable RERUN=off would make a silent no-op of a recording that the user
 /// asked for.
-fn builder(batching: ChunkBatcherConfig) -> RecordingStreamBuilder {
+fn builder(batches: ChunkBatcherConfig) -> RecordingStreamBuilder {
     RecordingStreamBuilder::new(APPLICATION)
         .enabled(true)
-        .batcher_config(batching)
+        .batcher_config(batches)
 }
 
 /// For how long something that is logged holds. What holds always shadows what holds from some time on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Holds {
+pub(crate) enum Holds {
     Always,
     FromNow,
 }
 
 /// A recording that is being written.
-pub(super) struct Stream {
+pub(crate) struct Stream {
     recording: RecordingStream,
     to: Destination,
     output: String,
     closed: bool,
-    sent: Instant,
-    /// How long the sending took last: longer where other programs want the processors too.
-    sending: Duration,
+    flushed: Instant,
     now: Cell<Moment>,
-    timepoint: RefCell<TimePoint>,
-    waiting: RefCell<Waiting>,
-    /// What holds always, in the finished file, bytes.
-    always: Cell<f64>,
-    /// Before the name of all that is logged: the run of several that it is of; empty: there is one.
-    under: RefCell<String>,
+    size: RefCell<SizeEstimate>,
+    /// Why something could not be logged, first of all that could not: [`Stream::check`] tells.
+    refused: RefCell<Option<String>>,
+    /// Before the name of all that is logged: which of several runs it is of; empty: there is one.
+    run: RefCell<String>,
 }
 
 impl Stream {
     /// Opens the file.
-    pub(super) fn create(path: &Path, overwrite: Overwrite) -> Result<Self, ObserveError> {
+    pub(crate) fn create(path: &Path, overwrite: Overwrite) -> Result<Self, ObserveError> {
         let failed = |reason: String| {
             let reason = format!("the recording could not be started: {reason}");
             ObserveError::new(path.display().to_string(), reason)
@@ -81,35 +80,19 @@ impl Stream {
         let (file, placed) = overwrite.open(path)?;
         let file = RecordingFile::start(file, placed).map_err(failed)?;
         check_clock().map_err(failed)?;
-        let recording = builder(ChunkBatcherConfig::NEVER)
+        let recording = builder(FILE_BATCHES)
             .buffered()
             .map_err(|error| failed(error.to_string()))?;
         recording.set_sink(Box::new(file.clone()));
-        // What the file is comes before what is in it.
-        let begun = recording.flush_with_timeout(CLOSE_TIMEOUT);
-        begun.map_err(|error| failed(error.to_string()))?;
-        let store = recording
-            .store_info()
-            .map(|info| info.store_id)
-            .ok_or_else(|| failed("it has no name".to_owned()))?;
         let output = path.display().to_string();
-        let to = Destination::File { file, store };
-        Ok(Self::over(recording, to, output))
+        Ok(Self::over(recording, Destination::File(file), output))
     }
 
     /// Opens a connection to a viewer, or for viewers.
-    pub(super) fn live(live: Live) -> Result<Self, ObserveError> {
-        let batching = ChunkBatcherConfig {
-            flush_tick: LIVE_TICK,
-            max_bytes_in_flight: WAITING_BYTES,
-            ..ChunkBatcherConfig::DEFAULT
-        };
-        let (recording, link) = live::open(live, builder(batching))?;
-        Ok(Self::over(
-            recording,
-            Destination::Live(link),
-            live.to_string(),
-        ))
+    pub(crate) fn live(live: Live) -> Result<Self, ObserveError> {
+        let (recording, link) = live::open(live, builder(LIVE_BATCHES))?;
+        let output = live.to_string();
+        Ok(Self::over(recording, Destination::Live(link), output))
     }
 
     fn over(recording: RecordingStream, to: Destination, output: String) -> Self {
@@ -121,225 +104,171 @@ impl Stream {
             to,
             output,
             closed: false,
-            sent: Instant::now(),
-            sending: Duration::ZERO,
+            flushed: Instant::now(),
             now: Cell::default(),
-            timepoint: RefCell::default(),
-            waiting: RefCell::default(),
-            always: Cell::default(),
-            under: RefCell::default(),
+            size: RefCell::default(),
+            refused: RefCell::default(),
+            run: RefCell::default(),
         }
     }
 
     /// What is set up or logged next is of that run.
-    pub(super) fn go_under(&self, run: &str) {
-        run.clone_into(&mut self.under.borrow_mut());
+    pub(crate) fn enter_run(&self, run: &str) {
+        run.clone_into(&mut self.run.borrow_mut());
     }
 
     /// The whole path of an entity.
     fn path(&self, entity: impl Into<EntityPath>) -> EntityPath {
-        let (under, entity) = (self.under.borrow(), entity.into());
-        if under.is_empty() {
+        let (run, entity) = (self.run.borrow(), entity.into());
+        if run.is_empty() {
             return entity;
         }
-        EntityPath::from(under.as_str()).join(&entity)
+        EntityPath::from(run.as_str()).join(&entity)
     }
 
-    /// The path, or which viewer.
-    pub(super) fn output(&self) -> String {
+    /// The path of the file, or which viewer.
+    pub(crate) fn output(&self) -> String {
         self.output.clone()
     }
 
     /// Where it goes.
-    pub(super) fn to(&self) -> &Destination {
+    pub(crate) fn to(&self) -> &Destination {
         &self.to
     }
 
     /// Whether a viewer has been closed: nobody reads any more.
-    pub(super) fn is_gone(&self) -> bool {
+    pub(crate) fn is_gone(&self) -> bool {
         self.to.is_gone()
     }
 
     /// Whether it goes to viewers, while the run goes on.
-    pub(super) fn is_live(&self) -> bool {
+    pub(crate) fn is_live(&self) -> bool {
         self.to.file().is_none()
     }
 
     /// The library's stream, for the layout.
-    pub(super) fn recording(&self) -> &RecordingStream {
+    pub(crate) fn recording(&self) -> &RecordingStream {
         &self.recording
     }
 
+    /// Sets the time of what is logged next.
+    pub(crate) fn set_time(&self, now: Moment) {
+        self.now.set(now);
+    }
+
     /// Logs at the time that was set last.
-    pub(super) fn log(
-        &self,
-        entity: &str,
-        data: &(impl AsComponents + ?Sized),
-    ) -> Result<(), ObserveError> {
-        let now = self.timepoint.borrow().clone();
-        let under = self.under.borrow();
-        let mut waiting = self.waiting.borrow_mut();
-        if under.is_empty() {
-            waiting.push(entity, now, data);
-        } else {
-            waiting.push(&format!("{under}/{entity}"), now, data);
-        }
-        drop(waiting);
-        self.send_if_full()
+    pub(crate) fn log(&self, entity: &str, data: &(impl AsComponents + ?Sized)) {
+        let batches = data.as_serialized_batches();
+        self.size.borrow_mut().add_row(entity, &batches);
+        let row = PendingRow::from_iter(self.now.get().timepoint(), batches);
+        self.recording.record_row(self.path(entity), row, false);
     }
 
-    fn send_if_full(&self) -> Result<(), ObserveError> {
-        if self.waiting.borrow().is_full() {
-            self.send_rows()?;
-        }
-        Ok(())
-    }
-
-    fn send_rows(&self) -> Result<(), ObserveError> {
-        let mut outcome = Ok(());
-        self.waiting.borrow_mut().take(|chunk| {
-            let sent = chunk
-                .map_err(|error| self.failed(&error.to_string()))
-                .and_then(|chunk| self.send(chunk));
-            if outcome.is_ok() {
-                outcome = sent;
-            }
-        });
-        outcome
-    }
-
-    fn send(&self, chunk: Chunk) -> Result<(), ObserveError> {
-        match &self.to {
-            Destination::File { file, store } => {
-                let message = chunk.to_arrow_msg();
-                let message = message.map_err(|error| self.failed(&error.to_string()))?;
-                // Errors of the file are kept in it, for `check`.
-                file.send(LogMsg::ArrowMsg(store.clone(), message));
-            }
-            Destination::Live(_) => self.recording.send_chunk(chunk),
-        }
-        Ok(())
-    }
-
-    /// Logs what holds for the whole recording, or from the time that was set last.
-    pub(super) fn log_that(
-        &self,
-        entity: &str,
-        data: &(impl AsComponents + ?Sized),
-        holds: Holds,
-    ) -> Result<(), ObserveError> {
-        match holds {
-            Holds::Always => self.log_static(entity, data),
-            Holds::FromNow => self.log(entity, data),
-        }
+    /// Logs numbers at the time that was set last.
+    pub(crate) fn log_scalars(&self, entity: &str, values: &[f64]) {
+        self.size.borrow_mut().add_scalars(values.len());
+        let data = Scalars::new(values.iter().copied());
+        let row = PendingRow::from_iter(self.now.get().timepoint(), data.as_serialized_batches());
+        self.recording.record_row(self.path(entity), row, false);
     }
 
     /// Logs what holds for the whole recording.
-    pub(super) fn log_static(
+    pub(crate) fn log_static(
         &self,
         entity: impl Into<EntityPath>,
         data: &(impl AsComponents + ?Sized),
-    ) -> Result<(), ObserveError> {
+    ) {
         let batches = data.as_serialized_batches();
-        let bytes: usize = batches
-            .iter()
-            .map(|batch| batch.array.get_buffer_memory_size())
-            .sum();
-        self.always
-            .update(|always| always + MESSAGE + TEXT * bytes as f64);
-        self.log_for_now(entity, batches)
+        self.size.borrow_mut().add_static(&batches);
+        self.send_row(entity.into(), TimePoint::default(), batches);
     }
 
-    /// Logs what holds for the whole recording until it is logged again: the finished file has the last of them alone,
-    /// which weighs nothing.
-    pub(super) fn log_for_now(
-        &self,
-        entity: impl Into<EntityPath>,
-        batches: Vec<SerializedComponentBatch>,
-    ) -> Result<(), ObserveError> {
-        let row = PendingRow::from_iter(TimePoint::default(), batches);
-        let chunk = row.into_chunk(self.path(entity));
-        self.send(chunk.map_err(|error| self.failed(&error.to_string()))?)
-    }
-
-    /// Sets the time of what is logged next.
-    pub(super) fn set_time(&self, now: Moment) {
-        self.now.set(now);
-        *self.timepoint.borrow_mut() = now.timepoint();
-    }
-
-    /// Sends the scalars of many steps at once: `width` of each.
-    pub(super) fn log_columns(
-        &self,
-        entity: EntityPath,
-        moments: &[Moment],
-        values: &[f64],
-        width: usize,
-    ) -> Result<(), ObserveError> {
-        let lengths = std::iter::repeat_n(width, moments.len());
-        let columns = Scalars::new(values.iter().copied())
-            .columns(lengths)
-            .map_err(|error| self.failed(&error.to_string()))?;
-        let chunk = chunk_of(self.path(entity), moments, columns);
-        self.send(chunk.map_err(|error| self.failed(&error.to_string()))?)
-    }
-
-    /// Sends what waits on to the file now.
-    pub(super) fn send_on(&mut self) -> Result<(), ObserveError> {
-        self.sent = Instant::now();
-        self.send_rows()?;
-        if let Destination::Live(_) = &self.to {
-            // A viewer that takes nothing is seen by its queue.
-            drop(self.recording.flush_async());
+    /// Logs what holds for the whole recording, or from the time that was set last until it is logged again. Either is a
+    /// chunk of its own: readers go by chunks whose rows all hold the same components.
+    pub(crate) fn log_for(&self, holds: Holds, entity: &str, data: &(impl AsComponents + ?Sized)) {
+        match holds {
+            Holds::Always => self.log_static(entity, data),
+            Holds::FromNow => {
+                let batches = data.as_serialized_batches();
+                self.size.borrow_mut().add_row(entity, &batches);
+                self.send_row(entity.into(), self.now.get().timepoint(), batches);
+            }
         }
-        self.sending = self.sent.elapsed();
-        Ok(())
     }
 
-    /// Whether a tick has passed since, less the time that the sending takes: what it takes is not written yet.
-    pub(super) fn is_due(&self) -> bool {
-        let tick = match &self.to {
-            Destination::File { .. } => TICK,
-            Destination::Live(_) => LIVE_TICK,
-        };
-        self.sent.elapsed() >= tick.saturating_sub(2 * self.sending).max(tick / 2)
+    fn send_row(&self, entity: EntityPath, at: TimePoint, batches: Vec<SerializedComponentBatch>) {
+        match PendingRow::from_iter(at, batches).into_chunk(self.path(entity)) {
+            Ok(chunk) => self.recording.send_chunk(chunk),
+            Err(error) => {
+                let mut refused = self.refused.borrow_mut();
+                refused.get_or_insert_with(|| error.to_string());
+            }
+        }
     }
 
-    /// An error if the file has failed since.
-    pub(super) fn check(&self) -> Result<(), ObserveError> {
+    /// Whether rows have waited long enough to be flushed. What goes to viewers the batcher flushes by itself.
+    pub(crate) fn is_flush_due(&self) -> bool {
+        !self.is_live() && self.flushed.elapsed() >= FLUSH_TICK
+    }
+
+    /// Writes the rows that wait to the file, and after them how far it then goes: of several such notes the finished file
+    /// has the last one.
+    pub(crate) fn flush(&mut self, reach: Option<(&str, Note)>) -> Result<(), ObserveError> {
+        self.flushed = Instant::now();
+        if self.is_live() || self.closed {
+            return Ok(());
+        }
+        if let Some((entity, note)) = reach {
+            let rows_first = self.recording.flush_async();
+            rows_first.map_err(|error| self.failed(&error.to_string()))?;
+            let note = TextDocument::new(note.to_text());
+            let batches = note.as_serialized_batches();
+            self.send_row(entity.into(), TimePoint::default(), batches);
+        }
+        let flushed = self.recording.flush_with_timeout(FLUSH_TIMEOUT);
+        self.check()?;
+        flushed.map_err(|error| self.failed(&error.to_string()))
+    }
+
+    /// An error if the file has failed, or something could not be logged.
+    pub(crate) fn check(&self) -> Result<(), ObserveError> {
+        let refused = || self.refused.borrow().clone();
         let error = self.to.file().and_then(RecordingFile::error);
+        let error = error.or_else(refused);
         error.map_or(Ok(()), |reason| Err(self.failed(&reason)))
     }
 
-    /// What was logged so far will take of the finished file, bytes, but for columns of scalars; a viewer has its own
-    /// limit and forgets the oldest, so nothing is counted.
-    pub(super) fn weight(&self) -> f64 {
-        match &self.to {
-            Destination::File { .. } => self.always.get() + self.waiting.borrow().weight(),
-            Destination::Live(_) => 0.0,
+    /// What was logged so far will take of the finished file, bytes. A viewer has its own limit and forgets the oldest, so
+    /// nothing is counted.
+    pub(crate) fn expected_bytes(&self) -> f64 {
+        if self.is_live() {
+            0.0
+        } else {
+            self.size.borrow().bytes()
         }
     }
 
-    /// Writes what waits and binds the file.
-    pub(super) fn close(&mut self) -> Result<(), ObserveError> {
+    /// Writes what waits and compacts the file.
+    pub(crate) fn close(&mut self) -> Result<(), ObserveError> {
         if self.closed {
             return self.check();
         }
         self.closed = true;
-        let sent = self.send_rows();
-        let file = match &self.to {
-            Destination::File { file, .. } => file,
+        let flushed = self.recording.flush_with_timeout(match &self.to {
+            Destination::File(_) => FLUSH_TIMEOUT,
+            Destination::Live(_) => LIVE_CLOSE_TIMEOUT,
+        });
+        match &self.to {
+            Destination::File(file) => {
+                file.finish().map_err(|reason| self.failed(&reason))?;
+                flushed.map_err(|error| self.failed(&error.to_string()))
+            }
             Destination::Live(link) => {
                 // What a viewer does not take in time it does not get: nobody waits for it.
-                let flushed = self.recording.flush_with_timeout(LIVE_CLOSE_TIMEOUT);
-                link.ended(flushed.is_ok());
-                return Ok(());
+                link.note_end(flushed.is_ok());
+                Ok(())
             }
-        };
-        let flushed = self.recording.flush_with_timeout(CLOSE_TIMEOUT);
-        file.finish().map_err(|reason| self.failed(&reason))?;
-        sent?;
-        flushed.map_err(|error| self.failed(&error.to_string()))
+        }
     }
 
     fn failed(&self, reason: &str) -> ObserveError {

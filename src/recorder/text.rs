@@ -3,39 +3,25 @@
 use std::fmt::Write as _;
 
 use rerun::components::MediaType;
-use rerun::{AsComponents as _, TextDocument, TextLog, TextLogLevel};
+use rerun::{TextDocument, TextLog, TextLogLevel};
 
+use super::entities::text::{ABOUT, COMMANDS, LECTURE, LOG, NOTES, NOW, ORIGIN, PLAN, SCENE_TOML};
 use super::note::Note;
 use super::picture::{Beyond, top};
 use super::series::by_itself;
 use super::stream::Stream;
 use asperity_engine::math::number::{counted, plain, seconds, sig, sig_or_dash};
-use asperity_engine::observe::{ObserveError, RunContext, RunEvent, RunEventKind};
+use asperity_engine::observe::{RunContext, RunEvent, RunEventKind};
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::{Caution, CautionCode, Frame, LifeEstimate};
 use asperity_picture::Look;
 
-pub(super) const ABOUT: &str = "text/about";
-pub(super) const SCENE_TOML: &str = "text/scene_toml";
-pub(super) const PLAN: &str = "text/plan";
-pub(super) const NOTES: &str = "text/notes_on_the_data";
-pub(super) const NOW: &str = "text/now";
-/// Same for an audience, in large type.
-pub(super) const LECTURE: &str = "text/lecture";
-pub(super) const LOG: &str = "log";
-/// What the run began with, for programs.
-pub(super) const ORIGIN: &str = "text/origin";
-/// Knobs that were turned, for programs.
-pub(super) const COMMANDS: &str = "commands";
-/// How far the recording goes, for programs: the last one holds.
-pub(super) const REACH: &str = "text/reach";
-
 /// What no reader of the numbers should forget.
-pub(super) const CAUTION: &str =
+pub(crate) const CAUTION: &str =
     "relative life is an estimate under assumptions: isothermal, elastic, no wear, initiation only";
 
 /// What is known before the first frame.
-pub(super) fn log_context(stream: &Stream, context: &RunContext) -> Result<(), ObserveError> {
+pub(crate) fn log_context(stream: &Stream, context: &RunContext) {
     let scene = &context.scene;
     let about = format!(
         "# {title}\n\n{about}\n\nRecorded by {program}.\n\n## To repeat it\n\n```\nasperity run --from \
@@ -55,26 +41,26 @@ pub(super) fn log_context(stream: &Stream, context: &RunContext) -> Result<(), O
         about = scene.about,
         program = context.program,
     );
-    stream.log_static(ABOUT, &TextDocument::from_markdown(about))?;
+    stream.log_static(ABOUT, &TextDocument::from_markdown(about));
     let toml = TextDocument::new(context.scene_toml.as_str());
-    stream.log_static(SCENE_TOML, &toml)?;
+    stream.log_static(SCENE_TOML, &toml);
     let origin = Note::Origin {
         program: context.program.clone(),
         began: context.began,
         scene_toml: context.scene_toml.clone(),
     };
-    stream.log_static(ORIGIN, &TextDocument::new(origin.to_text()))?;
+    stream.log_static(ORIGIN, &TextDocument::new(origin.to_text()));
     let plan = TextDocument::new(context.plan_text.as_str());
-    stream.log_static(PLAN, &plan)
+    stream.log_static(PLAN, &plan);
 }
 
 /// How numbers are stored.
-pub(super) fn log_notes<'a>(
+pub(crate) fn log_notes<'a>(
     stream: &Stream,
     looks: impl Iterator<Item = (&'static str, &'a Look)>,
     cadence: &str,
     exaggeration: &str,
-) -> Result<(), ObserveError> {
+) {
     let mut notes = format!(
         "# Notes on the data\n\n{cadence} Interferogram, traction, \
          roughness, shear stress and damage take every second of them.\n\n{exaggeration}\n\nMaps are stored in \
@@ -95,45 +81,48 @@ pub(super) fn log_notes<'a>(
             look.unit.name
         );
     }
-    stream.log_static(NOTES, &TextDocument::from_markdown(notes))?;
+    stream.log_static(NOTES, &TextDocument::from_markdown(notes));
     let markdown = TextDocument::update_fields().with_media_type(MediaType::markdown());
-    stream.log_static(NOW, &markdown)?;
-    stream.log_static(LECTURE, &markdown)
+    stream.log_static(NOW, &markdown);
+    stream.log_static(LECTURE, &markdown);
 }
 
-/// A map whose range was widened: entity, its tops before and after, unit.
-pub(super) type Widened = (&'static str, [f64; 2], &'static str);
-
-/// Ranges that hold from now on.
-pub(super) fn log_widened(stream: &Stream, widened: &[Widened]) -> Result<(), ObserveError> {
-    for (entity, [before, after], unit) in widened {
-        let [before, after] = [before, after].map(|top| plain(*top));
-        let line = format!(
-            "a knob was turned beyond the scene's script: the colours of {entity} reach {after} {unit} from here on, before {before}"
-        );
-        log_line(stream, &line, TextLogLevel::INFO)?;
-    }
-    Ok(())
+/// A map whose range was widened.
+pub(crate) struct WidenedRange {
+    pub(crate) entity: &'static str,
+    /// The tops of the range, in the unit.
+    pub(crate) before: f64,
+    pub(crate) after: f64,
+    pub(crate) unit: &'static str,
 }
 
-/// A map of which something is above the colours: entity, what, unit.
-pub(super) type Above = (&'static str, Beyond, &'static str);
+/// A range that holds from now on.
+pub(crate) fn log_widened(stream: &Stream, range: &WidenedRange) {
+    let [before, after] = [range.before, range.after].map(plain);
+    let (entity, unit) = (range.entity, range.unit);
+    let line = format!(
+        "a knob was turned beyond the scene's script: the colours of {entity} reach {after} {unit} from here on, before {before}"
+    );
+    log_line(stream, &line, TextLogLevel::INFO);
+}
+
+/// A map of which something is above the colours.
+pub(crate) struct AboveRange {
+    pub(crate) entity: &'static str,
+    pub(crate) beyond: Beyond,
+    pub(crate) unit: &'static str,
+}
 
 /// The caption that holds and the numbers of a frame.
-pub(super) fn log_now(
-    stream: &Stream,
-    frame: &Frame,
-    caption: &str,
-    above: &[Above],
-) -> Result<(), ObserveError> {
+pub(crate) fn log_now(stream: &Stream, frame: &Frame, caption: &str, above: &[AboveRange]) {
     let text = TextDocument::update_fields().with_text(now(frame, caption, above));
-    stream.log(NOW, &text)?;
+    stream.log(NOW, &text);
     let text = TextDocument::update_fields().with_text(lecture(frame, caption));
-    stream.log(LECTURE, &text)
+    stream.log(LECTURE, &text);
 }
 
 /// A text with the band that came out of the run's companion, below the life.
-pub(super) fn with_band(text: &str, band: &str) -> String {
+pub(crate) fn with_band(text: &str, band: &str) -> String {
     let Some(life) = text
         .lines()
         .find(|line| line.starts_with(HEADING) || line.starts_with(LIFE_NOW))
@@ -190,7 +179,7 @@ fn lecture(frame: &Frame, caption: &str) -> String {
 const HEADING: &str = "# Life";
 const LIFE_NOW: &str = "### Relative life";
 
-fn now(frame: &Frame, caption: &str, above: &[Above]) -> String {
+fn now(frame: &Frame, caption: &str, above: &[AboveRange]) -> String {
     let m = &frame.metrics;
     let mut text = String::with_capacity(1024);
     if !caption.is_empty() {
@@ -207,19 +196,14 @@ fn now(frame: &Frame, caption: &str, above: &[Above]) -> String {
     }
     text.push('\n');
     push_table(&mut text, frame);
-    for (
-        entity,
-        Beyond {
-            above, greatest, ..
-        },
-        unit,
-    ) in above
-    {
-        let greatest = sig(f64::from(*greatest), 3);
+    for map in above {
+        let maximum = sig(f64::from(map.beyond.maximum), 3);
         let _ = writeln!(
             text,
-            "| above the colours | {entity}: {nodes}, up to {greatest} {unit} |",
-            nodes = counted(*above, "node")
+            "| above the colours | {}: {nodes}, up to {maximum} {} |",
+            map.entity,
+            map.unit,
+            nodes = counted(map.beyond.above, "node")
         );
     }
     for caution in cautions.iter().filter(always) {
@@ -330,24 +314,8 @@ fn towards(value: f64, target: f64, unit: &str) -> String {
     text.trim_end().to_owned()
 }
 
-/// How far the recording goes; `ended`: nothing comes after.
-pub(super) fn log_reach(
-    stream: &Stream,
-    last_step: u64,
-    turns: u64,
-    ended: bool,
-) -> Result<(), ObserveError> {
-    let reach = Note::Reach {
-        last_step,
-        turns,
-        ended,
-    };
-    let reach = TextDocument::new(reach.to_text());
-    stream.log_for_now(REACH, reach.as_serialized_batches())
-}
-
 /// Something that happened, after so many knobs had been turned.
-pub(super) fn log_event(stream: &Stream, event: &RunEvent, turns: u64) -> Result<(), ObserveError> {
+pub(crate) fn log_event(stream: &Stream, event: &RunEvent, turns: u64) {
     let (text, level) = match &event.kind {
         RunEventKind::Set { key, value, .. } => (
             format!("step {}: {key} set to {value}", event.step),
@@ -377,14 +345,14 @@ pub(super) fn log_event(stream: &Stream, event: &RunEvent, turns: u64) -> Result
             value: *value,
             by: *by,
         };
-        stream.log(COMMANDS, &TextLog::new(line.to_text()))?;
+        stream.log(COMMANDS, &TextLog::new(line.to_text()));
     }
-    log_line(stream, &text, level)
+    log_line(stream, &text, level);
 }
 
 /// A line of the log.
-pub(super) fn log_line(stream: &Stream, text: &str, level: &str) -> Result<(), ObserveError> {
-    stream.log(LOG, &TextLog::new(text).with_level(level))
+pub(crate) fn log_line(stream: &Stream, text: &str, level: &str) {
+    stream.log(LOG, &TextLog::new(text).with_level(level));
 }
 
 #[cfg(test)]

@@ -3,25 +3,18 @@
 
 use rerun::{LineStrips2D, Points2D, Radius};
 
-use super::centre_line::line;
 use super::colour::{GREEN, GREY, ORANGE, PURPLE, SKY, WHITE, faded};
-use super::plot::{Labels, PlotBox, dot, points, ticks_at};
-use super::stream::Stream;
-use super::waiting::Curves;
+use super::entities::tooth::{CONTACT, GEARS, OUTLINES, PATHS};
+use super::plot::{Labels, PlotBox, Strips, dot, line, points, ticks_at};
+use super::stream::{Holds, Stream};
+use super::view::View;
 use asperity_engine::math::number::{GPA, MM, nice_ceiling, sig, ticks};
-use asperity_engine::observe::ObserveError;
 use asperity_engine::physics::gear::{GearTeeth, LineOfAction};
 use asperity_engine::physics::line::hertz_from_load;
 use asperity_engine::scene::{Scene, Tooth};
 use asperity_engine::sim::Frame;
+use asperity_picture::Scope;
 
-pub(super) const GEARS: &str = "tooth/gears";
-/// Pressure, sliding, radius.
-pub(super) const PATHS: [&str; 3] = [
-    "tooth/path/hertz_pressure_GPa",
-    "tooth/path/slide_roll",
-    "tooth/path/radius_mm",
-];
 /// Width and height of the picture of the gears, in modules.
 const PICTURE: [f64; 2] = [7.2, 5.0];
 /// Height of the curves over their width.
@@ -29,11 +22,10 @@ const HEIGHT: f64 = 0.26;
 const CURVES: [[u8; 3]; 3] = [ORANGE, PURPLE, SKY];
 
 /// The teeth and the path.
-pub(super) struct ToothEntity {
+pub(crate) struct ToothEntity {
     tooth: Tooth,
     gears: GearTeeth,
     line: LineOfAction,
-    teeth: [Curves; 2],
     paths: [PathCurve; 3],
 }
 
@@ -42,87 +34,78 @@ struct PathCurve {
     plot: PlotBox,
     /// Value at the lower and the upper edge.
     range: [f64; 2],
-    now: Curves,
-    dot: String,
+    entity: &'static str,
 }
 
 impl ToothEntity {
     /// Sets up the picture of a scene that rides along a tooth; `None` of others.
-    pub(super) fn new(
-        stream: &Stream,
-        scene: Option<&Scene>,
-    ) -> Result<Option<Self>, ObserveError> {
-        let Some((scene, tooth)) = scene.and_then(|scene| Some((scene, scene.tooth?))) else {
-            return Ok(None);
-        };
+    pub(crate) fn new(stream: &Stream, scene: Option<&Scene>) -> Option<Self> {
+        let scene = scene?;
+        let tooth = scene.tooth?;
         let gears = tooth.gears();
-        let Some(line_of_action) = gears.line_of_action() else {
-            return Ok(None);
-        };
-        log_line(stream, &gears, &line_of_action)?;
-        let gear = |name: &str, colour| {
-            let entity = format!("{GEARS}/{name}");
-            stream.log_static(entity.as_str(), &line(colour, 1.25))?;
-            Ok(stream.curves(entity))
-        };
-        let path = |k: usize, values| {
-            PathCurve::new(stream, PATHS[k], (values, CURVES[k]), &line_of_action)
-        };
+        let line_of_action = gears.line_of_action()?;
+        log_line(stream, &gears, &line_of_action);
+        for (outline, colour) in OUTLINES.into_iter().zip([SKY, WHITE]) {
+            stream.log_static(outline, &line(colour, 1.25));
+        }
+        let path =
+            |k: usize, values| PathCurve::new(stream, PATHS[k], values, CURVES[k], &line_of_action);
         let [pressure, sliding, radius] = path_curves(scene, &tooth, &line_of_action);
-        Ok(Some(Self {
-            teeth: [gear("pinion", SKY)?, gear("wheel", WHITE)?],
-            paths: [path(0, pressure)?, path(1, sliding)?, path(2, radius)?],
+        Some(Self {
+            paths: [path(0, pressure), path(1, sliding), path(2, radius)],
             tooth,
             gears,
             line: line_of_action,
-        }))
+        })
     }
 
     /// The picture of the gears and those of the path.
-    pub(super) fn plots(&self) -> ShownTooth {
+    pub(crate) fn plots(&self) -> ShownTooth {
         ShownTooth {
             gears: gears_box(&self.gears),
             paths: self.paths.each_ref().map(|path| path.plot.clone()),
         }
     }
+}
 
-    /// Logs where the contact is now.
-    pub(super) fn log(&self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+impl View for ToothEntity {
+    /// Its ranges are those of the whole path.
+    fn widen(&mut self, _stream: &Stream, _scene: Option<&Scene>, _scope: &Scope) {}
+
+    /// Where the contact is now.
+    fn log(&mut self, stream: &Stream, frame: &Frame) {
         let line = &self.line;
         let place_m = self.tooth.place_m(line, frame.time_s);
         // After E the run goes on as it was there.
         let held_m = place_m.clamp(line.a, line.e);
-        for (gear, curves) in self.teeth.into_iter().enumerate() {
-            let outline = self.gears.outline(line, gear, held_m, 2);
-            stream.log_curves(curves, |pen| {
-                let [across, high] = half_picture(&self.gears);
-                for at in outline {
-                    let [x, y] = [at[0] * MM, -at[1] * MM];
-                    if x.abs() <= across && y.abs() <= high {
-                        pen.to([x as f32, y as f32]);
-                    } else {
-                        pen.lift();
-                    }
+        let [across, high] = half_picture(&self.gears);
+        for (gear, entity) in OUTLINES.into_iter().enumerate() {
+            let mut strips = Strips::default();
+            for at in self.gears.outline(line, gear, held_m, 2) {
+                let [x, y] = [at[0] * MM, -at[1] * MM];
+                if x.abs() <= across && y.abs() <= high {
+                    strips.to([x as f32, y as f32]);
+                } else {
+                    strips.lift();
                 }
-            })?;
+            }
+            strips.log(stream, entity);
         }
         let at = in_view(self.gears.contact(line, held_m));
-        let at = Points2D::update_fields().with_positions([at]);
-        stream.log(&format!("{GEARS}/contact"), &at)?;
+        stream.log(CONTACT, &Points2D::update_fields().with_positions([at]));
         let m = &frame.metrics;
         let radius_mm = MM * held_m * (line.length - held_m) / line.length;
         let values = [GPA.of(frame.p_hertz_pa), m.slide_roll, radius_mm];
         for (path, value) in self.paths.iter().zip(values) {
-            path.log(stream, (held_m - line.a) * MM, value)?;
+            path.log(stream, (held_m - line.a) * MM, value);
         }
-        Ok(())
     }
 }
 
 /// What the layout has to know of a tooth.
-pub(super) struct ShownTooth {
-    pub(super) gears: PlotBox,
-    pub(super) paths: [PlotBox; 3],
+pub(crate) struct ShownTooth {
+    pub(crate) gears: PlotBox,
+    pub(crate) paths: [PlotBox; 3],
 }
 
 /// A curve over the path: mm from A, value.
@@ -157,10 +140,11 @@ fn path_curves(scene: &Scene, tooth: &Tooth, line: &LineOfAction) -> [PathValues
 impl PathCurve {
     fn new(
         stream: &Stream,
-        entity: &str,
-        (values, colour): (PathValues, [u8; 3]),
+        entity: &'static str,
+        values: PathValues,
+        colour: [u8; 3],
         line_of_action: &LineOfAction,
-    ) -> Result<Self, ObserveError> {
+    ) -> Self {
         let all = || values.iter().map(|[_, y]| *y);
         let (least, most) = (all().fold(0.0, f64::min), all().fold(0.0, f64::max));
         let top = nice_ceiling(most.max(1e-9));
@@ -181,37 +165,35 @@ impl PathCurve {
             x_title: "path of contact from A, mm".into(),
             ..PlotBox::default()
         };
-        plot.log(stream, &format!("{entity}/axes"))?;
+        plot.log(stream, &format!("{entity}/axes"), Holds::Always);
         let strip = values.into_iter().map(|[x, y]| [x, height(y, range, long)]);
         let strip = points(&strip.collect::<Vec<_>>());
         let curve = line(colour, 1.5).with_strips([strip]);
-        stream.log_static(format!("{entity}/curve"), &curve)?;
-        log_places(stream, entity, &plot, line_of_action)?;
-        let now = format!("{entity}/now");
-        stream.log_static(now.as_str(), &dot(GREEN, 5.0).with_show_labels(true))?;
-        let under = format!("{entity}/line_at_now");
-        stream.log_static(under.as_str(), &line(GREEN, 1.0))?;
-        Ok(Self {
+        stream.log_static(format!("{entity}/curve"), &curve);
+        log_places(stream, entity, &plot, line_of_action);
+        let now = dot(GREEN, 5.0).with_show_labels(true);
+        stream.log_static(format!("{entity}/now"), &now);
+        stream.log_static(format!("{entity}/line_at_now"), &line(GREEN, 1.0));
+        Self {
             plot,
             range,
-            now: stream.curves(under),
-            dot: now,
-        })
+            entity,
+        }
     }
 
     /// A line at the contact's place and the run's own value on it.
-    fn log(&self, stream: &Stream, place_mm: f64, value: f64) -> Result<(), ObserveError> {
+    fn log(&self, stream: &Stream, place_mm: f64, value: f64) {
         let [x, [top, bottom]] = [self.plot.x, self.plot.y];
         let place = place_mm.clamp(x[0], x[1]) as f32;
-        stream.log_curves(self.now, |pen| {
-            pen.to([place, top as f32]);
-            pen.to([place, bottom as f32]);
-        })?;
+        let mut strip = Strips::default();
+        strip.to([place, top as f32]);
+        strip.to([place, bottom as f32]);
+        strip.log(stream, &format!("{}/line_at_now", self.entity));
         let y = height(value, self.range, x[1]).clamp(top, bottom) as f32;
         let now = Points2D::update_fields()
             .with_positions([[place, y]])
             .with_labels([sig(value, 3)]);
-        stream.log(&self.dot, &now)
+        stream.log(&format!("{}/now", self.entity), &now);
     }
 }
 
@@ -221,12 +203,7 @@ fn height(value: f64, [low, top]: [f64; 2], long: f64) -> f64 {
 }
 
 /// B, C and D in a curve of the path.
-fn log_places(
-    stream: &Stream,
-    entity: &str,
-    plot: &PlotBox,
-    line_of_action: &LineOfAction,
-) -> Result<(), ObserveError> {
+fn log_places(stream: &Stream, entity: &str, plot: &PlotBox, line_of_action: &LineOfAction) {
     let LineOfAction { a, b, c, d, .. } = *line_of_action;
     let [top, bottom] = plot.y;
     let at = [b, c, d].map(|place| (place - a) * MM);
@@ -236,12 +213,12 @@ fn log_places(
         .with_colors(colours)
         .with_radii([Radius::new_ui_points(0.5)])
         .with_draw_order(8.0);
-    stream.log_static(format!("{entity}/places"), &lines)?;
+    stream.log_static(format!("{entity}/places"), &lines);
     let mut labels = Labels::default();
     for (x, text) in at.into_iter().zip(["B", "C", "D"]) {
         labels.add([x, bottom - 0.2 * (bottom - top)], text, GREY);
     }
-    labels.log(stream, &format!("{entity}/names"))
+    labels.log(stream, &format!("{entity}/names"), Holds::Always);
 }
 
 /// Half the picture's width and height, mm.
@@ -264,21 +241,17 @@ fn in_view([x, y]: [f64; 2]) -> [f32; 2] {
 }
 
 /// The line of action with its places, and what is what.
-fn log_line(
-    stream: &Stream,
-    gears: &GearTeeth,
-    line_of_action: &LineOfAction,
-) -> Result<(), ObserveError> {
+fn log_line(stream: &Stream, gears: &GearTeeth, line_of_action: &LineOfAction) {
     let LineOfAction { a, b, c, d, e, .. } = *line_of_action;
     let place = |s: f64| in_view(gears.contact(line_of_action, s));
     let way = line(GREY, 1.0).with_strips([[place(a), place(e)]]);
-    stream.log_static(format!("{GEARS}/line_of_action"), &way)?;
+    stream.log_static(format!("{GEARS}/line_of_action"), &way);
     let places = [a, b, c, d, e].map(place);
     let marks = Points2D::new(places)
         .with_radii([2.5, 2.5, 4.0, 2.5, 2.5].map(Radius::new_ui_points))
         .with_colors([faded(WHITE, u8::MAX)])
         .with_draw_order(24.0);
-    stream.log_static(format!("{GEARS}/places"), &marks)?;
+    stream.log_static(format!("{GEARS}/places"), &marks);
     let [across, high] = half_picture(gears);
     let mut labels = Labels::default();
     let below = 0.05 * high;
@@ -294,7 +267,7 @@ fn log_line(
         SKY,
     );
     labels.add([0.66 * across, -0.97 * high], "wheel (body 2) →", WHITE);
-    labels.log(stream, &format!("{GEARS}/names"))?;
+    labels.log(stream, &format!("{GEARS}/names"), Holds::Always);
     let contact = dot(ORANGE, 7.0).with_draw_order(28.0);
-    stream.log_static(format!("{GEARS}/contact"), &contact)
+    stream.log_static(CONTACT, &contact);
 }

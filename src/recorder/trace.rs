@@ -3,26 +3,22 @@
 
 use rerun::{Points2D, Radius};
 
-use super::centre_line::line;
 use super::colour::{GREEN, GREY, ORANGE, PURPLE, WHITE, YELLOW, faded};
+use super::entities::trace::{BEFORE, EFFECTIVE, NOW, PEAKS, PRESSURE, TRACE};
 use super::geometry::Geometry;
-use super::plot::{PlotBox, ticks_at};
+use super::plot::{PlotBox, Strips, line, ticks_at};
 use super::stream::{Holds, Stream};
-use super::waiting::Curves;
+use super::view::View;
 use asperity_engine::math::number::{GPA, MM, counted, divisions, plain, sig, ticks};
-use asperity_engine::observe::ObserveError;
+use asperity_engine::scene::Scene;
 use asperity_engine::sim::{Frame, MaterialPoint};
+use asperity_picture::Scope;
 
-pub(super) const TRACE: &str = "material_point/trace";
-/// Where the point is.
-const NOW: &str = "material_point/trace/now";
-/// Peaks that have passed.
-const PEAKS: &str = "material_point/trace/peaks";
 /// Points kept of a crossing; when there are more every other one is dropped.
 const MOST_POINTS: usize = 1024;
 
 /// The trace of the crossing that goes on, and the one before it.
-pub(super) struct TraceEntity {
+pub(crate) struct TraceEntity {
     plot: PlotBox,
     pressure_top_pa: f64,
     body: u8,
@@ -30,32 +26,9 @@ pub(super) struct TraceEntity {
     pressure: Vec<[f32; 2]>,
     effective: Vec<[f32; 2]>,
     before: Vec<[f32; 2]>,
-    /// Whether `before` has been logged.
-    shown: ShownCurve,
+    /// Whether `before` is in the recording as it is.
+    has_logged_before: bool,
     peaks: CrossingPeaks,
-    curves: TraceCurves,
-}
-
-/// The curves in the plot.
-struct TraceCurves {
-    pressure: Curves,
-    effective: Curves,
-    before: Curves,
-}
-
-impl TraceCurves {
-    fn new(stream: &Stream) -> Result<Self, ObserveError> {
-        let curves = |name: &str, colour, radius| {
-            let entity = format!("{TRACE}/{name}");
-            stream.log_static(entity.as_str(), &line(colour, radius))?;
-            Ok(stream.curves(entity))
-        };
-        Ok(Self {
-            pressure: curves("pressure_GPa", ORANGE, 1.5)?,
-            effective: curves("effective_stress_GPa", PURPLE, 1.5)?,
-            before: curves("crossing_before", GREY, 0.75)?,
-        })
-    }
 }
 
 /// The peaks of this crossing that have passed.
@@ -74,33 +47,22 @@ impl CrossingPeaks {
         self.logged = None;
     }
 
-    fn log(&mut self, stream: &Stream) -> Result<(), ObserveError> {
+    fn log(&mut self, stream: &Stream) {
         if self.logged == Some(self.at.len()) {
-            return Ok(());
+            return;
         }
         self.logged = Some(self.at.len());
         let labels = self.numbers.iter().map(u32::to_string);
         let points = Points2D::update_fields()
             .with_positions(self.at.iter().copied())
             .with_labels(labels);
-        stream.log(PEAKS, &points)
+        stream.log(PEAKS, &points);
     }
-}
-
-/// What is known of a curve that stays.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum ShownCurve {
-    NotYet,
-    AsItIs,
 }
 
 impl TraceEntity {
     /// Sets up the axes.
-    pub(super) fn new(
-        stream: &Stream,
-        geometry: Geometry,
-        pressure_top_pa: f64,
-    ) -> Result<Self, ObserveError> {
+    pub(crate) fn new(stream: &Stream, geometry: Geometry, pressure_top_pa: f64) -> Self {
         let x = [geometry.x_min, geometry.x_max()];
         let height = 0.45 * (x[1] - x[0]);
         let plot = PlotBox {
@@ -121,13 +83,20 @@ impl TraceEntity {
             .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
             .with_show_labels(true)
             .with_draw_order(30.0);
-        stream.log_static(NOW, &style)?;
+        stream.log_static(NOW, &style);
+        for (entity, colour, radius) in [
+            (PRESSURE, ORANGE, 1.5),
+            (EFFECTIVE, PURPLE, 1.5),
+            (BEFORE, GREY, 0.75),
+        ] {
+            stream.log_static(entity, &line(colour, radius));
+        }
         let style = Points2D::update_fields()
             .with_radii([Radius::new_ui_points(3.0)])
             .with_colors([faded(YELLOW, 255)])
             .with_show_labels(true)
             .with_draw_order(20.0);
-        stream.log_static(PEAKS, &style)?;
+        stream.log_static(PEAKS, &style);
         let mut this = Self {
             plot,
             pressure_top_pa,
@@ -136,39 +105,44 @@ impl TraceEntity {
             pressure: Vec::new(),
             effective: Vec::new(),
             before: Vec::new(),
-            shown: ShownCurve::NotYet,
+            has_logged_before: false,
             peaks: CrossingPeaks::default(),
-            curves: TraceCurves::new(stream)?,
         };
-        this.reach(stream, pressure_top_pa)?;
-        Ok(this)
+        this.draw_to(stream, pressure_top_pa);
+        this
     }
 
     /// Draws the axes up to this top from now on, and to them what was drawn before.
-    pub(super) fn reach(
-        &mut self,
-        stream: &Stream,
-        pressure_top_pa: f64,
-    ) -> Result<(), ObserveError> {
+    fn draw_to(&mut self, stream: &Stream, pressure_top_pa: f64) {
         let share = (self.pressure_top_pa / pressure_top_pa) as f32;
         self.pressure_top_pa = pressure_top_pa;
         let curves = [&mut self.pressure, &mut self.effective, &mut self.before];
         for [_, y] in curves.into_iter().flatten().chain(&mut self.peaks.at) {
             *y *= share;
         }
-        (self.shown, self.peaks.logged) = (ShownCurve::NotYet, None);
+        (self.has_logged_before, self.peaks.logged) = (false, None);
         let (top, lower) = (GPA.of(pressure_top_pa), self.plot.y[0]);
         self.plot.left_ticks = ticks_at(&divisions(top), |p| lower * p / top);
         let axes = format!("{TRACE}/axes");
-        self.plot.log_that(stream, &axes, Holds::FromNow)
+        self.plot.log(stream, &axes, Holds::FromNow);
     }
 
-    pub(super) fn plot(&self) -> &PlotBox {
+    pub(crate) fn plot(&self) -> &PlotBox {
         &self.plot
     }
 
-    /// Takes up a step; called for every step, also for those whose fields are not recorded.
-    pub(super) fn follow(&mut self, frame: &Frame) {
+    fn place(&self, x_m: f64, value_pa: f64) -> [f32; 2] {
+        let share = (value_pa / self.pressure_top_pa).min(1.0);
+        [(x_m * MM) as f32, (self.plot.y[0] * share) as f32]
+    }
+}
+
+impl View for TraceEntity {
+    fn widen(&mut self, stream: &Stream, _scene: Option<&Scene>, scope: &Scope) {
+        self.draw_to(stream, scope.ranges.pressure_pa);
+    }
+
+    fn follow_scalars(&mut self, frame: &Frame) {
         let Some(point) = &frame.material_point else {
             return;
         };
@@ -176,7 +150,7 @@ impl TraceEntity {
         let jumped = (point.x_m - self.last_x_m).abs() > frame.a_m;
         if point.body != self.body || jumped {
             self.before = std::mem::take(&mut self.pressure);
-            self.shown = ShownCurve::NotYet;
+            self.has_logged_before = false;
             self.effective.clear();
             self.peaks.clear();
         }
@@ -207,23 +181,17 @@ impl TraceEntity {
         }
     }
 
-    fn place(&self, x_m: f64, value_pa: f64) -> [f32; 2] {
-        let share = (value_pa / self.pressure_top_pa).min(1.0);
-        [(x_m * MM) as f32, (self.plot.y[0] * share) as f32]
-    }
-
     /// Logs the trace up to this frame.
-    pub(super) fn log(&mut self, stream: &Stream, frame: &Frame) -> Result<(), ObserveError> {
+    fn log(&mut self, stream: &Stream, frame: &Frame) {
         let Some(point) = &frame.material_point else {
-            return Ok(());
+            return;
         };
-        if self.shown == ShownCurve::NotYet {
-            stream.log_curves(self.curves.before, |pen| pen.draw(&self.before))?;
-            self.shown = ShownCurve::AsItIs;
+        if !std::mem::replace(&mut self.has_logged_before, true) {
+            Strips::of(&self.before).log(stream, BEFORE);
         }
-        stream.log_curves(self.curves.pressure, |pen| pen.draw(&self.pressure))?;
-        stream.log_curves(self.curves.effective, |pen| pen.draw(&self.effective))?;
-        self.peaks.log(stream)?;
+        Strips::of(&self.pressure).log(stream, PRESSURE);
+        Strips::of(&self.effective).log(stream, EFFECTIVE);
+        self.peaks.log(stream);
         let label = counts(point, frame);
         let [left, right] = self.plot.x;
         let label_at = [
@@ -233,7 +201,7 @@ impl TraceEntity {
         let now = Points2D::update_fields()
             .with_positions([self.place(point.x_m, point.pressure_pa), label_at])
             .with_labels([String::new(), label]);
-        stream.log(NOW, &now)
+        stream.log(NOW, &now);
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The pool keeps one reference to every frame it ever made. A frame whose only owner is the pool
 //! has been dropped by everyone who got it, so it may be filled again; nothing has to be handed
-//! back. When all frames are out the pool grows by one, which is counted.
+//! back. When all frames are out the pool grows by one.
 
 use std::sync::Arc;
 
@@ -13,7 +13,6 @@ use asperity_engine::sim::Frame;
 pub struct FramePool {
     frames: Vec<Arc<Frame>>,
     next: usize,
-    grown: usize,
 }
 
 impl FramePool {
@@ -23,7 +22,6 @@ impl FramePool {
         Self {
             frames: (0..n_frames).map(|_| Arc::new(template.clone())).collect(),
             next: 0,
-            grown: 0,
         }
     }
 
@@ -34,21 +32,6 @@ impl FramePool {
             write(frame);
         }
         Arc::clone(&self.frames[slot])
-    }
-
-    /// Frames made so far.
-    pub fn len(&self) -> usize {
-        self.frames.len()
-    }
-
-    /// Whether no frame was made yet.
-    pub fn is_empty(&self) -> bool {
-        self.frames.is_empty()
-    }
-
-    /// Frames made because all others were held by observers.
-    pub fn grown(&self) -> usize {
-        self.grown
     }
 
     /// A slot of which the pool is the only owner. The search goes round, so that the frame that
@@ -68,7 +51,6 @@ impl FramePool {
             .map(|frame| Frame::clone(frame))
             .unwrap_or_default();
         self.frames.push(Arc::new(template));
-        self.grown += 1;
         n
     }
 }
@@ -96,7 +78,7 @@ mod tests {
         seen.sort_unstable();
         seen.dedup();
         assert_eq!(seen.len(), 2, "the same two buffers are used");
-        assert_eq!((pool.len(), pool.grown()), (2, 0));
+        assert_eq!(pool.frames.len(), 2);
     }
 
     #[test]
@@ -105,10 +87,10 @@ mod tests {
         let held = pool.fill(|frame| frame.step = 1);
         let other = pool.fill(|frame| frame.step = 2);
         assert_eq!((held.step, other.step), (1, 2));
-        assert_eq!(pool.grown(), 1);
+        assert_eq!(pool.frames.len(), 2);
         drop(held);
         let third = pool.fill(|frame| frame.step = 3);
         assert_eq!((other.step, third.step), (2, 3));
-        assert_eq!(pool.grown(), 1);
+        assert_eq!(pool.frames.len(), 2);
     }
 }

@@ -3,14 +3,15 @@
 pub mod accuracy;
 pub mod evidence;
 mod machine;
-mod scaling;
+pub mod scaling;
 pub mod stability;
 mod table;
 
 pub use machine::machine;
-pub use scaling::{ScalingRow, scaling, scaling_text};
 pub use table::{MarkdownTable, figure};
 
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
 use thiserror::Error;
 
 /// How much to measure.
@@ -26,6 +27,21 @@ pub enum Extent {
 
 /// Hears the name of what is done next, how many are done, and how many there are.
 pub type StudyProgress<'a> = dyn FnMut(&str, usize, usize) + 'a;
+
+/// What a study prints, and what it leaves in files beside it.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// Its title.
+    pub title: &'static str,
+    /// Markdown below the title.
+    pub text: String,
+    /// Its rows for other programs.
+    pub table: MarkdownTable,
+    /// File names and SVG.
+    pub plots: Vec<(String, String)>,
+    /// Whether everything is as it must be.
+    pub passes: bool,
+}
 
 /// A study that could not be done.
 #[derive(Debug, Clone, Error)]
@@ -55,4 +71,17 @@ fn refuse_nothing(only: Option<&str>, is_empty: bool) -> Result<(), StudyError> 
         Some(part) if is_empty => Err(StudyError::NoCase(part.to_owned())),
         _ => Ok(()),
     }
+}
+
+/// A preset with keys set, such as `grid.nodes=65`.
+fn scene_with(preset: &str, sets: &[String]) -> Result<Scene, String> {
+    let overrides: Result<Vec<Override>, _> = sets.iter().map(|text| text.parse()).collect();
+    let overrides = overrides.map_err(|error| error.to_string())?;
+    Scene::load_with(preset, &overrides).map_err(|error| error.to_string())
+}
+
+/// A scene and what it is going to compute.
+fn planned(scene: Scene) -> Result<(Scene, Plan), String> {
+    let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
+    Ok((scene, plan))
 }

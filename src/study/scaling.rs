@@ -11,18 +11,15 @@
 //! nothing else. A second run with all stages on, of the mirrored grid, splits what a step costs:
 //! whatever it takes beyond the bare one goes to stress, counting and life; a frame is filled apart. A whole frame is all of it.
 
-mod report;
-
 use std::time::Instant;
 
-pub use report::scaling_text;
 use rustfft::FftNum;
 
-use super::{Extent, StudyError, StudyProgress, refuse_nothing};
+use super::table::{MarkdownTable, figure};
+use super::{Extent, Report, StudyError, StudyProgress, planned, refuse_nothing, scene_with};
 use asperity_engine::math::filter::{Filter, Padding};
 use asperity_engine::math::grid::{Grid, Symmetry};
-use asperity_engine::plan::Plan;
-use asperity_engine::scene::{Override, Scene, presets};
+use asperity_engine::scene::presets;
 use asperity_engine::sim::{Frame, Simulation, Stage};
 
 /// One measured case.
@@ -65,6 +62,13 @@ pub struct Split {
     pub memory_bytes: u64,
 }
 
+impl Split {
+    /// A whole step and its frame, s.
+    fn whole_frame_s(&self) -> f64 {
+        self.whole_s + self.frame_s
+    }
+}
+
 impl ScalingRow {
     /// Cost of a step in transform pairs.
     pub fn units(&self) -> f64 {
@@ -92,16 +96,17 @@ const GENERAL: &[&str] = &["body_2.surface.angle_deg=0.01"];
 const MIRRORED: &[&str] = &[];
 const MIRRORED_CASE: &str = "mirrored in y";
 
-/// The default scene at other speeds of entrainment.
+/// The default scene at other speeds of entrainment: at its own, 2 % of the contact are asperity contact.
 const SPEEDS: [(&str, &[&str]); 5] = [
     ("U = 5 m/s, full film", &["motion.entrainment_m_s=5"]),
-    (HALF_TOUCHES, &["motion.entrainment_m_s=0.05"]),
+    (
+        "U = 0.05 m/s, 56 % in contact",
+        &["motion.entrainment_m_s=0.05"],
+    ),
     ("U = 0.01 m/s", &["motion.entrainment_m_s=1e-2"]),
     ("U = 1e-3 m/s, near dry", &["motion.entrainment_m_s=1e-3"]),
     ("U = 1e-4 m/s, near dry", &["motion.entrainment_m_s=1e-4"]),
 ];
-/// The mixed regime's dry end: at the default speed 2 % of the contact touch, here 56 %.
-const HALF_TOUCHES: &str = "U = 0.05 m/s, 56 % touch";
 
 /// Nodes of the largest grid.
 const LARGEST: usize = 513;
@@ -163,8 +168,7 @@ pub fn scaling(
 fn measure(case: &ScalingCase) -> Result<ScalingRow, String> {
     let bare = run(case, &["stress=none", "life=none"])?;
     let pair_s = bare.pair_s;
-    let splits = case.name == MIRRORED_CASE;
-    let split = if splits {
+    let split = if case.name == MIRRORED_CASE {
         let whole = run(case, &[])?;
         Some(Split {
             whole_s: whole.mean_s,
@@ -208,17 +212,13 @@ struct Timings {
 
 fn run(case: &ScalingCase, more: &[&str]) -> Result<Timings, String> {
     let nodes = format!("grid.nodes={}", case.nodes);
-    let common = ["record=none", "time.passages=4", &nodes];
-    let overrides = common
-        .iter()
-        .chain(more)
-        .chain(case.keys)
-        .map(|text| text.parse::<Override>())
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(|error| error.to_string())?;
-    let scene =
-        Scene::load_with(presets::DEFAULT, &overrides).map_err(|error| error.to_string())?;
-    let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
+    let mut sets = vec![
+        nodes,
+        "record=none".to_owned(),
+        "time.passages=4".to_owned(),
+    ];
+    sets.extend(more.iter().chain(case.keys).map(|&key| key.to_owned()));
+    let (scene, plan) = planned(scene_with(presets::DEFAULT, &sets)?)?;
     let memory_bytes = plan.cost.memory_bytes;
     let mut sim = Simulation::new(&scene, plan, case.threads).map_err(|error| error.to_string())?;
     while sim.stage() != Stage::Passage {
@@ -302,4 +302,61 @@ fn transforms_s(case: &ScalingCase, newton: f64, krylov: f64) -> Result<f64, Str
     let pair = |padding| filter_s::<f32>(case.nodes, symmetry, padding, case.threads);
     let double = filter_s::<f64>(case.nodes, symmetry, Padding::Doubled, case.threads)?;
     Ok(newton * double + krylov * (pair(Padding::Doubled)? + pair(Padding::Pinned)?))
+}
+
+/// The steps, then what each stage takes in pairs.
+pub fn scaling_report(rows: &[ScalingRow]) -> Report {
+    type Column<T> = (&'static str, fn(&T) -> String);
+    let steps: [Column<ScalingRow>; 12] = [
+        ("grid", |row| format!("{}²", row.nodes)),
+        ("case", |row| row.case.clone()),
+        ("threads", |row| row.threads.to_string()),
+        ("pair, ms", |row| format!("{:.3}", row.pair_s * 1e3)),
+        ("step, ms", |row| format!("{:.2}", row.step_s * 1e3)),
+        ("units (pairs)", |row| format!("{:.0}", row.units())),
+        ("transforms, %", |row| {
+            figure(row.transforms_s.map(|s| 100.0 * s / row.step_s))
+        }),
+        ("steps/s", |row| format!("{:.1}", 1.0 / row.step_s)),
+        ("Newton", |row| format!("{:.1}", row.newton)),
+        ("Krylov", |row| format!("{:.1}", row.krylov)),
+        ("MB", |row| format!("{:.0}", row.memory_bytes as f64 * 1e-6)),
+        ("not converged", |row| row.failed.to_string()),
+    ];
+    let stages: [Column<(&ScalingRow, Split)>; 8] = [
+        ("grid", |(row, _)| format!("{}²", row.nodes)),
+        ("threads", |(row, _)| row.threads.to_string()),
+        ("solution, pairs", |(row, _)| format!("{:.1}", row.units())),
+        ("stress, counting and life, pairs", |(row, split)| {
+            format!("{:.1}", split.stress_and_life_s / row.pair_s)
+        }),
+        ("frame, pairs", |(row, split)| {
+            format!("{:.1}", split.frame_s / row.pair_s)
+        }),
+        ("whole frame, pairs", |(row, split)| {
+            format!("{:.1}", split.whole_frame_s() / row.pair_s)
+        }),
+        ("whole frames/s", |(_, split)| {
+            format!("{:.1}", 1.0 / split.whole_frame_s())
+        }),
+        ("MB with them", |(_, split)| {
+            format!("{:.0}", split.memory_bytes as f64 * 1e-6)
+        }),
+    ];
+    let of_stages: Vec<_> = rows
+        .iter()
+        .filter_map(|row| Some((row, row.split?)))
+        .collect();
+    let table = MarkdownTable::of(rows, &steps);
+    Report {
+        title: "Scaling",
+        text: format!(
+            "{}\n{}",
+            table.markdown(),
+            MarkdownTable::of(&of_stages, &stages).markdown()
+        ),
+        table,
+        plots: Vec::new(),
+        passes: rows.iter().all(|row| row.failed == 0),
+    }
 }

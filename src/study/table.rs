@@ -23,6 +23,15 @@ impl MarkdownTable {
         }
     }
 
+    /// A row for each of `rows`: a column is its name and what it says of one.
+    pub fn of<T, F: Fn(&T) -> String>(rows: &[T], columns: &[(&'static str, F)]) -> Self {
+        let cells = |row: &T| columns.iter().map(|(_, cell)| cell(row)).collect();
+        Self {
+            columns: columns.iter().map(|(name, _)| *name).collect(),
+            rows: rows.iter().map(cells).collect(),
+        }
+    }
+
     /// As Markdown.
     pub fn markdown(&self) -> String {
         let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));

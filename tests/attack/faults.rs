@@ -170,21 +170,7 @@ impl Faults {
             NONE,
             &refs(&args("10000", &more)),
         );
-        let rows = || {
-            let names = place.names().into_iter();
-            let part = names.filter(|name| name.contains(".part-")).find(|name| {
-                Path::new(name)
-                    .extension()
-                    .is_some_and(|ending| ending == "csv")
-            });
-            let text = part.map(|name| std::fs::read_to_string(place.folder().join(name)));
-            text.and_then(Result::ok)
-                .map_or(0, |text| text.lines().count())
-        };
-        let began = Instant::now();
-        while rows() < 8 && began.elapsed() < child::PATIENCE {
-            std::thread::sleep(Duration::from_millis(5));
-        }
+        wait_for_rows(&place);
         let sent = std::process::Command::new("kill")
             .args([signal, &child.id().to_string()])
             .status();
@@ -217,7 +203,7 @@ impl Faults {
             NONE,
             &refs(&args("10000", &more)),
         );
-        std::thread::sleep(Duration::from_millis(700));
+        wait_for_rows(&place);
         for option in ["--out=run.rrd", "--table=run.csv"] {
             let words = tempfile::tempdir().unwrap();
             let second = args("0.1", &[option.to_owned(), "--force".to_owned()]);
@@ -410,4 +396,18 @@ pub(crate) fn all() -> Vec<Tally> {
     faults.clock_jumps();
     (faults.tally.slowest_s, faults.tally.peak_mb) = faults.most.get();
     vec![faults.tally]
+}
+
+/// Waits until a run has written rows of its table, and so has all its files open.
+fn wait_for_rows(place: &Place) {
+    let is_table = |name: &String| name.contains(".part-") && name.ends_with(".csv");
+    let rows = || {
+        let name = place.names().into_iter().find(is_table)?;
+        let text = std::fs::read_to_string(place.folder().join(name)).ok()?;
+        Some(text.lines().count())
+    };
+    let began = Instant::now();
+    while rows().unwrap_or(0) < 8 && began.elapsed() < child::PATIENCE {
+        std::thread::sleep(Duration::from_millis(5));
+    }
 }

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::path::Path;
 
 use super::child::Ended;
 
@@ -74,16 +73,4 @@ pub(crate) fn table(tallies: &[Tally]) -> String {
         writeln!(text, "* {failure}").unwrap();
     }
     text
-}
-
-pub(crate) fn write(tallies: &[Tally]) {
-    let head = "# Under attack\n\n\
-                Written by `cargo test --release --test attack -- --ignored --nocapture` (`tests/attack/`). Every input has a process \
-                and a folder of its own, 20 s and 2 GB of address space; the most that one was seen to hold stands beside. Survived is: an exit code of the book, words with \
-                every one but 0, no panic, no signal, no hang, nothing written but what was asked for; in a fault besides: \
-                every file that was there is as it was or replaced by a whole one, and none half-written bears its name.\n\n";
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/reports/attack.md");
-    let fuzzed = include_str!("fuzz/runs.md");
-    let text = format!("{head}{}\n## Coverage-guided\n\n{fuzzed}", table(tallies));
-    std::fs::write(path, text).unwrap();
 }

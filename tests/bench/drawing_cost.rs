@@ -107,7 +107,7 @@ impl Show {
         let began = Instant::now();
         self.app.tick(self.start.elapsed());
         self.app.take_status(RunStatus::default());
-        let frames = self.session.latest();
+        let frames = self.session.handle.latest();
         if let Some(frame) = frames.take() {
             let mut points = Vec::new();
             frames.take_points(&mut points);
@@ -124,9 +124,9 @@ impl Show {
 
     /// Waits for a step to end: when, and how many there are.
     fn step_end(&self) -> (Instant, u64) {
-        let before = self.session.status().steps;
+        let before = self.session.handle.status().steps;
         loop {
-            let steps = self.session.status().steps;
+            let steps = self.session.handle.status().steps;
             if steps > before {
                 return (Instant::now(), steps);
             }
@@ -151,7 +151,7 @@ impl Show {
 
 fn measure(screen: Rect) {
     let mut show = Show::new(screen);
-    while show.session.status().stage == Stage::StartUp {
+    while show.session.handle.status().stage == Stage::StartUp {
         std::thread::sleep(FRAME_TIME);
     }
     let mut ratios = Vec::new();
@@ -163,7 +163,7 @@ fn measure(screen: Rect) {
         sums = [sums[0] + with, sums[1] + without];
         ratios.push(with / without);
     }
-    show.session.send(Command::Stop);
+    show.session.handle.send(Command::Stop);
     ratios.sort_by(f64::total_cmp);
     let Rect { width, height, .. } = screen;
     let drawings = f64::from(show.drawings.max(1));

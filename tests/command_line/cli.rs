@@ -163,8 +163,8 @@ fn options_that_a_study_does_not_read_are_refused() {
             &["--threads", "one thread with two"],
         ),
         (
-            &["accuracy", "--only=life"],
-            &["--only", "stability, scaling and evidence"],
+            &["accuracy", "--only=nothing"],
+            &["--only nothing", "no case"],
         ),
         (
             &["scaling", "--only=nothing"],

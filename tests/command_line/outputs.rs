@@ -261,8 +261,11 @@ fn a_killed_run_leaves_what_it_was_to_replace_and_what_it_had_made() {
         4,
         &["run.rrd", "another run"],
     );
-    // The recording is written within a second.
-    std::thread::sleep(Duration::from_secs(1));
+    wait_until("steps in the recording", || {
+        part(".rrd").is_some_and(|path| {
+            asperity_recorder::Recorded::read(&path).is_ok_and(|run| run.last_step > 0)
+        })
+    });
     child.kill().unwrap();
     child.wait().unwrap();
     assert_mine(place);
@@ -506,14 +509,7 @@ fn a_pipe_is_refused_and_not_waited_for() {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        let began = Instant::now();
-        while child.try_wait().unwrap().is_none() {
-            if began.elapsed() > Duration::from_secs(20) {
-                child.kill().unwrap();
-                panic!("{args:?} waits");
-            }
-            std::thread::sleep(Duration::from_millis(10));
-        }
+        wait_until("a refusal", || child.try_wait().unwrap().is_some());
         let (code, _, err) = ended(child);
         assert_eq!(code, Some(1), "{args:?}: {err}");
         assert!(err.contains("not a plain file"), "{err}");

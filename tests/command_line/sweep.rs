@@ -86,19 +86,25 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     let root = tempfile::tempdir().unwrap();
     let (one, _) = fill(&sweep, &root.path().join("one"), Shard::WHOLE, 2);
     let single = table(&sweep, &[one]);
-    let place = root.path().join("broken");
-    let folder = Folder::create(&place, &sweep, Existing::Refuse).unwrap();
-    // Stopped as soon as two cases are there: in the middle of a chain.
-    let progress = Progress::default();
-    std::thread::scope(|scope| {
-        scope.spawn(|| run(&sweep, &folder, Shard::WHOLE, 1, &progress).unwrap());
-        while progress.done.load(Ordering::Relaxed) < 2 {
-            std::thread::yield_now();
-        }
-        progress.stop.store(true, Ordering::Relaxed);
+    // Stopped as soon as two cases are there: in the middle of a chain. On a busy machine the rest may be made before this
+    // thread sees them: then once more.
+    let mut stopped = (0..20).map(|attempt| {
+        let place = root.path().join(format!("broken-{attempt}"));
+        let folder = Folder::create(&place, &sweep, Existing::Refuse).unwrap();
+        let progress = Progress::default();
+        std::thread::scope(|scope| {
+            scope.spawn(|| run(&sweep, &folder, Shard::WHOLE, 1, &progress).unwrap());
+            while progress.done.load(Ordering::Relaxed) < 2 {
+                std::thread::yield_now();
+            }
+            progress.stop.store(true, Ordering::Relaxed);
+        });
+        let kept = (0..8).filter(|k| folder.read_case(*k).is_some()).count();
+        assert!(kept >= 2, "{kept}");
+        (place, folder, kept)
     });
-    let kept = (0..8).filter(|k| folder.read_case(*k).is_some()).count();
-    assert!((2..8).contains(&kept), "{kept}");
+    let stopped = stopped.find(|(_, _, kept)| *kept < 8);
+    let (place, folder, kept) = stopped.expect("a sweep that was stopped on its way");
     // What a kill in the middle of a write would leave: a temporary file, and on a bad disk half a record.
     std::fs::write(place.join("temporary-elsewhere-1-0"), "asperity case").unwrap();
     let last = place.join("cases").join(format!("{:07}.json", kept - 1));
@@ -338,7 +344,7 @@ fn hostile_files_are_refused_by_key_value_and_range() {
         ),
         (
             "[chain]\npassages = nan\n[vary]\nmotion.slide_roll = [1.0]",
-            &["chain.passages", "0.25 to 1e4"],
+            &["chain.passages", "0.25 to 10000"],
         ),
         (
             "[gear]\nteeth = [16, 24]\n[vary]\nmotion.slide_roll = [1.0]",

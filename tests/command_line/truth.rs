@@ -2,8 +2,6 @@
 //! recording, report and screen, over all presets and twenty settings of the knobs. Two numbers agree when they
 //! differ by no more than the rounding of their last printed digits. Means of the summary are made again here
 //! from the rows of the table.
-//!
-//! `ASPERITY_REPORT=assets/reports/truth.md cargo test --release --test command_line truth::` writes the table as a report.
 #![cfg(all(feature = "tui", feature = "rerun"))]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
@@ -620,14 +618,6 @@ fn every_number_is_the_same_in_every_place() {
         cases.len()
     );
     println!("{report}\n{total}");
-    if let Ok(path) = std::env::var("ASPERITY_REPORT") {
-        let command = "`ASPERITY_REPORT=assets/reports/truth.md cargo test --release --test command_line truth::`";
-        std::fs::write(
-            path,
-            format!("{command}\n\n# Every number in every place\n\n{total}\n\n{report}"),
-        )
-        .unwrap();
-    }
     assert_eq!(disagreements, 0, "{total}\n{report}");
 }
 

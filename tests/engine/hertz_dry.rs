@@ -3,6 +3,7 @@
 
 use crate::common::contact::{CIRCLE, DRY, LOAD, by_newton, conditions};
 use asperity_engine::math::grid::{Grid, Symmetry};
+use asperity_engine::solve::film::Elastic;
 use asperity_engine::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity_engine::solve::newton::{Newton, NewtonReport, Sheared, Tolerance, Verdict};
 use asperity_engine::solve::tangential::{Shear, Tangential};
@@ -212,4 +213,25 @@ fn unlike_bodies_with_all_friction_are_solved() {
     let mut march = March::from_hertz(grid, &shape, 0.0, 1.0, Flow::Dry);
     let report = march.attempt(&asked, 1.0, Guess::Last);
     assert_eq!(report.verdict, Verdict::Converged, "{report:?}");
+}
+
+/// The deflection of Hertz' pressure, 1 − r²/2 inside: single precision loses nothing that the mesh has not lost.
+#[test]
+fn single_precision_deflects_as_double_does() {
+    let grid = Grid::new(129, -1.5, 1.5, 1.5, Symmetry::General);
+    let mut elastic = Elastic::new(&grid, CIRCLE.kappa);
+    let r2 = |n: usize| grid.x(n % grid.nx).powi(2) + grid.y(n / grid.nx).powi(2);
+    let p: Vec<f64> = (0..grid.len())
+        .map(|n| (1.0 - r2(n)).max(0.0).sqrt())
+        .collect();
+    let single_p: Vec<f32> = p.iter().map(|&p| p as f32).collect();
+    let mut double = vec![0.0; grid.len()];
+    let mut single = vec![0.0; grid.len()];
+    elastic.deflect(&p, &mut double);
+    elastic.deflect_single(&single_p, &mut single);
+    let error = |u: f64, n: usize| (u + 0.5 * r2(n) - 1.0).abs();
+    for n in (0..grid.len()).filter(|n| r2(*n) <= 0.25) {
+        assert!(error(double[n], n) < 5e-5, "{n}");
+        assert!(error(f64::from(single[n]), n) < 5e-5, "{n}");
+    }
 }

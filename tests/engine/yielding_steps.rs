@@ -1,8 +1,6 @@
 //! Steel that yields under oil and on the move: bounds in every step of the stiff set, shakedown of what comes back.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use std::fmt::Write as _;
-
 use crate::common::stiff::{self, Stiff};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
@@ -395,7 +393,7 @@ fn what_flows_passage_after_passage_is_named() {
     assert!(summary.yielded_last_share.unwrap() > 0.001 && named.is_some());
 }
 
-/// Flanks as ground, 1.5 µm Ra in all, of the gear presets: crests that no steel carries (as in `tests/life/counts.rs`).
+/// Flanks as ground, 1.5 µm Ra in all, of the gear presets: crests that no steel carries.
 const GROUND: [&str; 5] = [
     "grid.nodes=513",
     "body_1.surface.amplitude_m=7.212e-7",
@@ -403,147 +401,3 @@ const GROUND: [&str; 5] = [
     "body_2.surface.amplitude_m=5.657e-7",
     "body_2.surface.wavelength_x_m=3e-5",
 ];
-
-/// Lives of the gear presets after each part of what decides them: flow along the sliding, hardness, how cycles count.
-/// The last column's count is the preset's own, the others' the paper's.
-fn gear_lives(out: &mut String) {
-    out.push_str(
-        "\n## Lives after each part\n\n\
-         Relative life after two passages with one viscosity in both directions, elastic and by the paper's count; then \
-         with the oil's own law along the sliding; then with steel that yields; then with cycles by damage.\n\n\
-         | case | secant, elastic, global | along_across, elastic, global | along_across, 6.84 GPa, global | along_across, 6.84 GPa, its own count |\n\
-         |---|---|---|---|---|\n",
-    );
-    for preset in [
-        "fzg_pitch_point",
-        "fzg_point_b",
-        "fzg_point_a",
-        "fzg_point_e",
-    ] {
-        for (label, surfaces) in [("", &[][..]), (" as ground", &GROUND[..])] {
-            let life = |flow: &str, hardness: &str, cycles: Option<&str>| {
-                let mut sets: Vec<String> = surfaces.iter().map(ToString::to_string).collect();
-                sets.extend(["record=none".to_owned(), "time.passages=2".to_owned()]);
-                sets.push(format!("lubricant.eyring_flow={flow}"));
-                sets.extend([1, 2].map(|body| format!("body_{body}.hardness_pa={hardness}")));
-                sets.extend(cycles.map(|cycles| format!("life.cycles={cycles}")));
-                let mut sim = simulation(preset, &sets);
-                while !sim.is_done() {
-                    sim.step().unwrap();
-                }
-                format!("{:.2e}", sim.summary().life_relative.unwrap())
-            };
-            let global = Some("global");
-            writeln!(
-                out,
-                "| {preset}{label} | {} | {} | {} | {} |",
-                life("secant", "none", global),
-                life("along_across", "none", global),
-                life("along_across", "6.84e9", global),
-                life("along_across", "6.84e9", None),
-            )
-            .unwrap();
-        }
-    }
-}
-
-/// The stiff set: bounds, and what it costs, elastic and with a hardness.
-fn stiff_set(out: &mut String) {
-    out.push_str(
-        "\n## The stiff set\n\n\
-         Steel on steel in stiff oil, rough bodies, 4.3 GPa (`stiff` of the same file), twenty steps after the start-up: what no \
-         step exceeds, and the work. Wanted: load within 1e-5, mass within 1e-4, no more Newtons than elastic.\n\n\
-         | nodes | U, m/s | S | hardness, GPa | greatest p, GPa | load | mass | Newtons | elastic | flow, m³ | not converged |\n\
-         |---|---|---|---|---|---|---|---|---|---|---|\n",
-    );
-    for (nodes, speed, slide_roll) in STIFF {
-        let elastic = run(&stiff(nodes, speed, slide_roll, None), 20);
-        let yields = run(&stiff(nodes, speed, slide_roll, Some(H_PA)), 20);
-        writeln!(
-            out,
-            "| {nodes} | {speed} | {slide_roll} | {:.2} | {:.2} | {:.1e} | {:.1e} | {} | {} | {:.2e} | {} |",
-            1e-9 * H_PA,
-            1e-9 * yields.p_max_pa,
-            yields.load,
-            yields.mass,
-            yields.newton,
-            elastic.newton,
-            yields.yielded_m3,
-            yields.not_converged,
-        )
-        .unwrap();
-    }
-}
-
-/// Writes assets/reports/hardness.md: lives of gear flanks, elastic and at the hardness of 60 HRC.
-#[test]
-#[ignore = "minutes: writes a report"]
-fn report() {
-    let mut out = String::from(
-        "`cargo test --release --test engine yielding_steps::report -- --ignored`\n\n\
-         # Gear flanks that yield\n\n\
-         The presets as they are stay below their hardness and live as before. With flanks as ground (waves of 30 \
-         µm on both, amplitudes 0.72 and 0.57 µm, 513 nodes) elastic crests carry what no steel does. Hardness \
-         6.84 GPa (60 HRC) of both bodies. Greatest pressure and life are those of the last passage of so many; \
-         flow is what both bodies have yielded from the start-up on, per metre of length, and the part of it in \
-         that passage. At the pitch point crests go beyond their hardness only while the roughness comes up. Not \
-         converged: steps, elastic and yielding.\n\n\
-         | case | passages | elastic: greatest p, GPa | life | Newtons a step | yielding: greatest p, GPa | life | Newtons a step | flow, m³/m | in the last passage | not converged |\n\
-         |---|---|---|---|---|---|---|---|---|---|---|\n",
-    );
-    for preset in [
-        "fzg_pitch_point",
-        "fzg_point_b",
-        "fzg_point_a",
-        "fzg_point_e",
-    ] {
-        for (label, sets, passages) in [
-            ("", &[][..], 2),
-            (" as ground", &GROUND[..], 2),
-            (" as ground", &GROUND[..], 6),
-        ] {
-            let run = |hardness: &str| {
-                let mut sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
-                sets.push("record=none".to_owned());
-                sets.push(format!("time.passages={passages}"));
-                for body in [1, 2] {
-                    sets.push(format!("body_{body}.hardness_pa={hardness}"));
-                }
-                let mut sim = simulation(preset, &sets);
-                while !sim.is_done() {
-                    sim.step().unwrap();
-                }
-                let summary = sim.summary();
-                let newton =
-                    summary.counters.newton_iterations as f64 / summary.counters.steps as f64;
-                (summary, newton)
-            };
-            let ((elastic, before), (yields, after)) = (run("none"), run("6.84e9"));
-            let life =
-                |life: Option<f64>| life.map_or("-".to_owned(), |life| format!("{life:.3e}"));
-            let flow = yields.yielded_body_1_m3.unwrap() + yields.yielded_body_2_m3.unwrap();
-            writeln!(
-                out,
-                "| {preset}{label} | {passages} | {:.2} | {} | {before:.1} | {:.2} | {} | {after:.1} | {flow:.2e} | {} | {}, {} |",
-                1e-9 * elastic.p_max_greatest_pa,
-                life(elastic.life_relative),
-                1e-9 * yields.p_max_greatest_pa,
-                life(yields.life_relative),
-                yields.yielded_last_share.map_or("-".to_owned(), |share| format!("{share:.3}")),
-                elastic.steps_not_converged,
-                yields.steps_not_converged,
-            )
-            .unwrap();
-        }
-    }
-    gear_lives(&mut out);
-    stiff_set(&mut out);
-    std::fs::write(
-        concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/../../assets/reports/hardness.md"
-        ),
-        out,
-    )
-    .unwrap();
-}

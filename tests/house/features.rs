@@ -13,8 +13,8 @@ fn packages(edges: &str) -> BTreeSet<String> {
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{told}");
+    let messages = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{messages}");
     let lines = String::from_utf8(output.stdout).unwrap();
     let packages = lines.lines().map(|line| line.trim_end_matches(" (*)"));
     packages.map(str::to_owned).collect()

@@ -26,7 +26,7 @@ fn pages() -> Vec<(PathBuf, String)> {
     files.into_iter().map(text).collect()
 }
 
-pub(super) fn page(name: &str) -> String {
+fn page(name: &str) -> String {
     read(&root().join("assets/guide").join(name))
 }
 
@@ -40,9 +40,7 @@ fn between<'a>(text: &'a str, open: &str, close: &str) -> Vec<&'a str> {
 
 /// All source and test files, in one text.
 fn code() -> String {
-    let mut files = Vec::new();
-    super::all_files(&root().join("src"), &mut files);
-    files.iter().map(|file| read(file)).collect()
+    super::sources().into_iter().map(|(_, text)| text).collect()
 }
 
 #[test]
@@ -166,7 +164,7 @@ fn is_in_code(code: &str, name: &str) -> bool {
 }
 
 #[test]
-fn presets_and_cautions_are_told() {
+fn presets_and_cautions_are_described() {
     let scenes = page("scenes.md");
     for preset in presets::all() {
         assert!(
@@ -178,13 +176,13 @@ fn presets_and_cautions_are_told() {
     let life = page("life.md");
     let enumeration = read(&root().join("src/engine/sim/caution.rs"));
     let variants = between(&enumeration, "pub enum CautionCode {", "\n}")[0].lines();
-    let mut told = 0;
+    let mut described = 0;
     for line in variants.map(str::trim).filter(|line| line.ends_with(',')) {
         let code = snake_case(line.trim_end_matches(','));
         assert!(life.contains(&format!("`{code}`")), "life.md: {code}");
-        told += 1;
+        described += 1;
     }
-    assert!(told >= 13, "{told}");
+    assert!(described >= 13, "{described}");
 }
 
 fn snake_case(name: &str) -> String {

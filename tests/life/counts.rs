@@ -14,8 +14,6 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use std::fmt::Write as _;
-
 use asperity_engine::physics::strength::HARDENED_STEEL;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene, presets};
@@ -42,8 +40,6 @@ struct Run {
     body: [Option<Count>; 2],
     p_greatest_pa: f64,
     von_mises_pa: f64,
-    lambda: Option<f64>,
-    load_share: f64,
     summary: Summary,
 }
 
@@ -124,7 +120,6 @@ fn run(name: &str, sets: &[&str], passages: f64) -> Run {
     let mut frame = Frame::default();
     let mut counting: Option<Counting> = None;
     let (mut p_greatest_pa, mut von_mises_pa) = (0.0_f64, 0.0_f64);
-    let (mut share, mut steps) = (0.0, 0.0);
     while sim.stage() == Stage::StartUp || frame.passages < passages {
         sim.step().unwrap();
         if sim.stage() == Stage::StartUp {
@@ -135,16 +130,12 @@ fn run(name: &str, sets: &[&str], passages: f64) -> Run {
         counting.step(&frame, scene.speeds_m_s());
         p_greatest_pa = p_greatest_pa.max(frame.metrics.p_max_pa);
         von_mises_pa = von_mises_pa.max(frame.metrics.sigma_eff_max_pa.unwrap_or(0.0));
-        share += frame.metrics.contact_load_ratio;
-        steps += 1.0;
     }
     let counting = counting.unwrap();
     Run {
         body: [0, 1].map(|body| counting.count(body, &frame)),
         p_greatest_pa,
         von_mises_pa,
-        lambda: frame.metrics.lambda_ratio,
-        load_share: share / steps,
         summary: sim.summary(),
     }
 }
@@ -199,180 +190,4 @@ fn counts_and_pressures_of_every_preset() {
             preset.name
         );
     }
-}
-
-/// A row of the report.
-fn row(out: &mut String, label: &str, run: &Run) {
-    let s = &run.summary;
-    for (i, count) in run.body.iter().enumerate() {
-        let Some(c) = count else { continue };
-        writeln!(
-            out,
-            "| {label} | {} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {} | {} | {} | {:.4} | {:.4} | {:.4} | {} |",
-            i + 1,
-            c.n,
-            c.zone,
-            c.counted[0],
-            c.counted[1],
-            c.counted[2],
-            c.counted[3],
-            c.equivalent,
-            1e-9 * run.p_greatest_pa,
-            if run.von_mises_pa > 0.0 { format!("{:.2}", 1e-9 * run.von_mises_pa) } else { "-".to_owned() },
-            s.life_relative.map_or("-".to_owned(), |life| format!("{life:.2e}")),
-            run.lambda.map_or("-".to_owned(), |lambda| format!("{lambda:.2}")),
-            s.contact_ratio,
-            run.load_share,
-            s.friction_coefficient,
-            s.steps_not_converged,
-        )
-        .unwrap();
-    }
-}
-
-const HEAD: &str = "| case | body | n | over the loaded zone | counted, gate 2 % | 5 % | 10 % | 25 % | equivalent | greatest p, GPa | von Mises, GPa | life | λ | contact ratio | load share | friction | not converged |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-
-/// Roughness as the presets had it before: ground flanks, whose crests no steel carries.
-const AS_GROUND: &[(&str, &[&str])] = &[
-    ("fzg_pitch_point", FZG),
-    ("fzg_point_b", FZG),
-    ("fzg_point_a", FZG),
-    ("fzg_point_e", FZG),
-    ("cam_nose", CAM),
-    (
-        "micropitting_rig",
-        &[
-            "body_2.surface.amplitude_m=7.07e-7",
-            "body_2.surface.wavelength_x_m=6.5e-5",
-        ],
-    ),
-    (
-        "twin_disc",
-        &[
-            "body_1.surface.wavelength_x_m=2e-4",
-            "body_2.surface.wavelength_x_m=2e-4",
-        ],
-    ),
-];
-const FZG: &[&str] = &[
-    "grid.nodes=513",
-    "body_1.surface.amplitude_m=7.212e-7",
-    "body_1.surface.wavelength_x_m=3e-5",
-    "body_2.surface.amplitude_m=5.657e-7",
-    "body_2.surface.wavelength_x_m=3e-5",
-];
-const CAM: &[&str] = &[
-    "grid.nodes=513",
-    "body_1.surface.wavelength_x_m=3e-5",
-    "body_2.surface.wavelength_x_m=3e-5",
-];
-
-/// What the counts and the contact ratio depend on.
-const VARIED: &[(&str, &[&str])] = &[
-    ("cam_nose", &["grid.nodes=129"]),
-    ("cam_nose", &["grid.nodes=257"]),
-    ("cam_nose", &["grid.nodes=513"]),
-    ("cam_nose", &["time.step_nodes=0.5"]),
-    (
-        "cam_nose",
-        &["numerics.tolerance=1e-5", "numerics.max_iterations=60"],
-    ),
-    ("cam_nose", &["body_1.surface.kind=smooth"]),
-    ("cam_nose", &["body_2.surface.kind=smooth"]),
-    ("cam_nose", &["lubricant.rheology=newtonian"]),
-    ("cam_nose", &["lubricant=none"]),
-    ("fzg_pitch_point", &["lubricant=none"]),
-    ("fzg_point_e", &["grid.nodes=129"]),
-    ("fzg_point_e", &["grid.nodes=257"]),
-    ("fzg_point_e", &["grid.nodes=513"]),
-    ("fzg_point_e", &["lubricant=none"]),
-    ("demonstration_quick", &["grid.nodes=65"]),
-    ("demonstration_quick", &["grid.nodes=129"]),
-    ("demonstration_quick", &["grid.nodes=257"]),
-    ("demonstration_quick", &["time.step_nodes=0.5"]),
-    (
-        "demonstration_quick",
-        &["motion.entrainment_m_s=0.02", "grid.nodes=65"],
-    ),
-    (
-        "demonstration_quick",
-        &["motion.entrainment_m_s=0.02", "grid.nodes=129"],
-    ),
-    ("micropitting_rig", &["grid.nodes=65"]),
-    ("micropitting_rig", &["grid.nodes=129"]),
-];
-
-/// The same of the cam with crests 30 µm apart, each of them a contact of a few nodes.
-const STEEP: &[(&str, &[&str])] = &[
-    ("cam_nose", &["grid.nodes=257"]),
-    ("cam_nose", &["grid.nodes=1025"]),
-    ("cam_nose", &["grid.nodes=257", "time.step_nodes=0.5"]),
-    (
-        "cam_nose",
-        &[
-            "grid.nodes=257",
-            "numerics.tolerance=1e-5",
-            "numerics.max_iterations=60",
-        ],
-    ),
-    (
-        "cam_nose",
-        &["grid.nodes=257", "lubricant.rheology=newtonian"],
-    ),
-    ("cam_nose", &["grid.nodes=257", "lubricant=none"]),
-    (
-        "cam_nose",
-        &["grid.nodes=257", "body_1.surface.kind=smooth"],
-    ),
-    (
-        "cam_nose",
-        &["grid.nodes=257", "body_2.surface.kind=smooth"],
-    ),
-    (
-        "cam_nose",
-        &["grid.nodes=513", "body_2.surface.kind=smooth"],
-    ),
-    (
-        "cam_nose",
-        &["grid.nodes=1025", "body_2.surface.kind=smooth"],
-    ),
-];
-
-#[test]
-#[ignore = "a study of some minutes, which writes assets/reports/counts.md"]
-fn report() {
-    let mut out = String::from(
-        "`cargo test --release --test life counts::report -- --ignored`\n\n# Counts of stress cycles\n\n",
-    );
-    out.push_str("Greatest pressure and von Mises stress of the whole run (slice y = 0); contact ratio, load share and friction are means. ");
-    out.push_str("Gates in per cent of p_h; equivalent: cycles of the greatest range that do the same damage (exponent 31/3).\n\n");
-    let mut table = |title: &str, cases: &[(&str, &[&str])], more: &[&str]| {
-        write!(out, "## {title}\n\n{HEAD}").unwrap();
-        for (name, sets) in cases {
-            let all = [&["record=none", "numerics.error_estimate=none"], more, sets].concat();
-            let label = format!("{name} {}", sets.join(" "));
-            println!("{label}");
-            row(
-                &mut out,
-                label.trim(),
-                &run(name, &all, passages(&scene(name, sets))),
-            );
-        }
-        out.push('\n');
-    };
-    let presets: Vec<(&str, &[&str])> = presets::all().iter().map(|p| (p.name, &[][..])).collect();
-    table("Presets", &presets, &[]);
-    table(
-        "As they were: flanks as ground, crests that no steel carries",
-        AS_GROUND,
-        &[],
-    );
-    table("What moves them", VARIED, &["stress=none", "life=none"]);
-    let steep = ["stress=none", "life=none", CAM[1], CAM[2]];
-    table(
-        "What moves them where crests are steep: waves of 30 um",
-        STEEP,
-        &steep,
-    );
-    std::fs::write("assets/reports/counts.md", out).unwrap();
 }

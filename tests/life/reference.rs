@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use asperity_engine::physics::hertz::HertzShape;
+use asperity_engine::physics::hertz::ContactKind;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Event, Override, Scene};
 use asperity_engine::sim::{Frame, Simulation, Summary};
@@ -142,7 +142,7 @@ fn a_load_that_is_turned_up_gives_the_life_of_a_run_that_begins_there() {
     // Life falls as the smooth contact's does: r^-(c + 3/e), the films' share aside.
     let ratio = (2376.0_f64 / 800.0).cbrt();
     let closed = asperity_engine::physics::estimate::load_factor(
-        HertzShape::Point,
+        ContactKind::Point,
         ratio,
         31.0 / 3.0,
         10.0 / 9.0,

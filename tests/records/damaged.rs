@@ -129,7 +129,9 @@ fn a_closed_recording_that_was_cut_is_no_killed_run() {
     let attack = Attack::new();
     let (bytes, whole) = attack.recording(true);
     let mut refused = 0;
-    for length in (0..bytes.len()).step_by(397) {
+    // All over the file, and every cut into what the recorder writes last: the footer of 32 bytes and the index before it.
+    let last = bytes.len() - 200..bytes.len();
+    for length in (0..last.start).step_by(397).chain(last) {
         match attack.read(&bytes[..length]) {
             // What follows the last word on the run repeats nothing.
             Ok(run) => {
@@ -142,7 +144,7 @@ fn a_closed_recording_that_was_cut_is_no_killed_run() {
             }
         }
     }
-    println!("{refused} of {} refused", bytes.len().div_ceil(397));
+    println!("{refused} refused of {} bytes", bytes.len());
     assert!(refused > bytes.len() / 397 / 2);
 }
 

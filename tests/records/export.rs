@@ -94,19 +94,15 @@ fn pictures_are_drawn_of_every_map_and_of_the_centre_line() {
 /// What comes back from a recording goes through the same painter.
 #[cfg(feature = "rerun")]
 mod from_a_recording {
-    use std::io::{Read as _, Write as _};
-    use std::net::{Ipv4Addr, TcpListener, TcpStream};
     use std::path::Path;
     use std::process::Command;
     use std::sync::Arc;
-    use std::sync::atomic::{AtomicBool, Ordering};
-    use std::time::Duration;
 
     use asperity_engine::observe::{Observer, Overwrite, RunContext};
     use asperity_engine::scene::{Record, Scene};
     use asperity_engine::sim::Frame;
     use asperity_picture::export::{Export, Format, PrintSize};
-    use asperity_recorder::{Gate, RecordedFrames, Recorder};
+    use asperity_recorder::{RecordedFrames, Recorder};
     use asperity_session::Table;
 
     use crate::common::synthetic;
@@ -296,43 +292,6 @@ mod from_a_recording {
             .unwrap()
             .num_frames;
         assert_eq!(frames as usize, back.len());
-    }
-
-    #[test]
-    fn a_held_recording_waits_for_a_viewer_and_for_the_last_to_leave() {
-        let stop = Arc::new(AtomicBool::new(false));
-        let gate = Gate::open(0, Arc::clone(&stop)).unwrap();
-        let server = TcpListener::bind((Ipv4Addr::LOCALHOST, gate.behind())).unwrap();
-        let echo = std::thread::spawn(move || {
-            let (mut viewer, _) = server.accept().unwrap();
-            let mut bytes = [0; 5];
-            viewer.read_exact(&mut bytes).unwrap();
-            viewer.write_all(&bytes).unwrap();
-            // Until the viewer is closed.
-            let _ = viewer.read(&mut bytes);
-        });
-        let mut viewer = TcpStream::connect((Ipv4Addr::LOCALHOST, gate.port())).unwrap();
-        viewer.write_all(b"hello").unwrap();
-        gate.wait_for_one();
-        let mut answer = [0; 5];
-        viewer.read_exact(&mut answer).unwrap();
-        assert_eq!(&answer, b"hello");
-        let left = Arc::new(AtomicBool::new(false));
-        let told = Arc::clone(&left);
-        let waiting = std::thread::spawn(move || {
-            gate.wait_until_left();
-            told.store(true, Ordering::Relaxed);
-        });
-        std::thread::sleep(Duration::from_secs(3));
-        assert!(!left.load(Ordering::Relaxed), "a viewer is there");
-        drop(viewer);
-        waiting.join().unwrap();
-        echo.join().unwrap();
-        // Ctrl-C ends the waiting.
-        let gate = Gate::open(0, Arc::clone(&stop)).unwrap();
-        stop.store(true, Ordering::Relaxed);
-        gate.wait_for_one();
-        gate.wait_until_left();
     }
 
     #[test]

@@ -3,7 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::synthetic;
-use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
+use std::process::{Command, Stdio};
 
 use asperity_engine::observe::{Observer, Overwrite};
 use asperity_engine::scene::Record;
@@ -95,4 +97,46 @@ fn a_server_without_viewers_takes_everything() {
     let report = queue.finish().unwrap();
     assert_eq!((report.frames, report.skipped), (20, 0), "{report:?}");
     assert_eq!(report.output, live.to_string());
+}
+
+/// The port that is told is the one that is served, on this machine alone, also when the run has ended; Enter ends it.
+#[test]
+fn a_held_server_serves_until_enter() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .args([
+            "run",
+            "--no-record",
+            "--serve=0",
+            "--hold",
+            "--passages=0.25",
+        ])
+        .args([
+            "--set=grid.nodes=33",
+            "--set=life=none",
+            "--set=stress=none",
+        ])
+        .args([
+            "--set=body_1.surface.kind=smooth",
+            "--set=body_2.surface.kind=smooth",
+        ])
+        .current_dir(folder.path())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut words = BufReader::new(child.stderr.take().unwrap()).lines();
+    let mut line_with = |what: &str| {
+        let found = words.find(|line| line.as_ref().unwrap().contains(what));
+        found.unwrap().unwrap()
+    };
+    let told = line_with("rerun+http://127.0.0.1:");
+    let port = told.split("127.0.0.1:").nth(1).unwrap();
+    let port: u16 = port.split('/').next().unwrap().parse().unwrap();
+    line_with("until Enter or Ctrl-C");
+    assert!(TcpStream::connect((Ipv4Addr::LOCALHOST, port)).is_ok());
+    assert!(child.try_wait().unwrap().is_none());
+    child.stdin.take().unwrap().write_all(b"\n").unwrap();
+    assert!(matches!(child.wait().unwrap().code(), Some(0 | 2)));
 }

@@ -24,7 +24,7 @@ fn request(scene: &Scene, record: Option<&Path>, ending: Ending) -> (Request, Ke
 }
 
 fn wait_for_steps(session: &Session, steps: u64) {
-    while session.status().steps < steps {
+    while session.handle.status().steps < steps {
         assert!(!session.is_finished(), "ended before step {steps}");
         std::thread::sleep(Duration::from_millis(1));
     }
@@ -48,15 +48,19 @@ fn a_session_with_turned_knobs_repeats_bit_for_bit() {
     let (request, kept) = self::request(&scene, Some(&path), Ending::OnStop);
     let session = Session::start(request).unwrap();
     // Whenever these arrive, in the start-up and in the passage: the recording knows when it was.
-    session.send(Command::Set(Knob::ForceN, 700.0));
+    session.handle.send(Command::Set(Knob::ForceN, 700.0));
     std::thread::sleep(Duration::from_millis(150));
-    session.send(Command::Set(Knob::Amplitude2M, 1.25e-7));
+    session
+        .handle
+        .send(Command::Set(Knob::Amplitude2M, 1.25e-7));
     wait_for_steps(&session, 4);
-    session.send(Command::Set(Knob::SlideRoll, 1.0 / 3.0));
+    session
+        .handle
+        .send(Command::Set(Knob::SlideRoll, 1.0 / 3.0));
     wait_for_steps(&session, 20);
-    session.send(Command::Set(Knob::EntrainmentMS, 0.9));
+    session.handle.send(Command::Set(Knob::EntrainmentMS, 0.9));
     wait_for_steps(&session, 40);
-    session.send(Command::Stop);
+    session.handle.send(Command::Stop);
     let outcome = session.join().unwrap();
     assert!(outcome.output_errors.is_empty());
     // Whoever goes on from its state is told that it is not the scene's own run.
@@ -72,8 +76,7 @@ fn a_session_with_turned_knobs_repeats_bit_for_bit() {
     assert_eq!(again, scene);
     let turns = recorded.turns.iter().map(|turn| HandTurn {
         steps_made: turn.steps_made,
-        knob: Knob::from_key(&turn.key).unwrap(),
-        value: turn.value,
+        command: Command::Set(Knob::from_key(&turn.key).unwrap(), turn.value),
     });
     let ending = Ending::Steps(recorded.last_step);
     let (request, kept_again) = self::request(&again, None, ending);

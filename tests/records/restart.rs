@@ -341,7 +341,8 @@ fn devices_pipes_and_folders_are_no_states() {
         assert_eq!(output.status.code(), Some(1), "{words}");
         println!("{}", words.trim());
     }
-    assert!(began.elapsed().as_secs() < 10);
+    // At once each, alone; a busy machine takes its time.
+    assert!(began.elapsed().as_secs() < 60);
 }
 
 /// Where all has been done there is no further step, and the summary is the run's in every field but its time.

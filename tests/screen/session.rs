@@ -8,7 +8,7 @@ use crate::common::keeper::{Kept, kept_request};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
 use asperity_engine::sim::{Follow, Frame, Knob, Simulation, Stage, State};
-use asperity_session::run::{Command, End, Ending, Request, Session, Settled};
+use asperity_session::run::{AppliedCommand, Command, End, Ending, Request, Session, Settled};
 use asperity_session::sweep::{Along, Background, CaseStart, CurveOrder, Found, Ground};
 
 fn small() -> Scene {
@@ -78,21 +78,23 @@ fn a_thousand_mashed_commands_never_break_the_run_and_the_log_replays_it() {
     let (request, kept) = self::request(&scene, Ending::OnStop);
     let session = Session::start(request).unwrap();
     for i in 0..1000 {
-        session.send(mashed(i));
+        session.handle.send(mashed(i));
         if i % 50 == 49 {
-            let steps = session.status().steps;
-            session.send(Command::Pause);
-            session.send(Command::Pause);
+            let steps = session.handle.status().steps;
+            session.handle.send(Command::Pause);
+            session.handle.send(Command::Pause);
             // From the passage on each burst is answered by steps.
             if steps > 0 {
-                wait_for(&session, |session| session.status().steps > steps + 1);
+                wait_for(&session, |session| {
+                    session.handle.status().steps > steps + 1
+                });
             } else {
                 std::thread::sleep(Duration::from_millis(50));
             }
         }
     }
-    wait_for(&session, |session| session.status().steps > 10);
-    session.send(Command::Stop);
+    wait_for(&session, |session| session.handle.status().steps > 10);
+    session.handle.send(Command::Stop);
     let outcome = session.join().unwrap();
     assert!(matches!(outcome.end, End::Stopped), "{:?}", outcome.end);
     println!(
@@ -104,7 +106,8 @@ fn a_thousand_mashed_commands_never_break_the_run_and_the_log_replays_it() {
     assert!(outcome.applied.len() > 500);
 
     let (request, again) = self::request(&scene, Ending::Steps(outcome.steps));
-    let replayed = Session::replay(request, &outcome.applied).unwrap();
+    let turns = outcome.applied.iter().filter_map(AppliedCommand::to_repeat);
+    let replayed = Session::repeat(request, turns.collect()).unwrap();
     assert_eq!(replayed.join().unwrap().steps, outcome.steps);
     let (one, two) = (kept.lock().unwrap(), again.lock().unwrap());
     assert_eq!(one.len(), two.len());
@@ -113,9 +116,8 @@ fn a_thousand_mashed_commands_never_break_the_run_and_the_log_replays_it() {
 }
 
 fn until_settled(session: &Session) -> Arc<Settled> {
-    let read = session.settled_reader();
-    wait_for(session, |_| read().is_some());
-    read().unwrap()
+    wait_for(session, |session| session.handle.settled().is_some());
+    session.handle.settled().unwrap()
 }
 
 /// The period that is kept for the replay closes, and a knob empties it.
@@ -148,10 +150,9 @@ fn a_passage_that_repeats_leaves_one_period() {
     // Other orbits are told from this one: half a period on the fields differ more.
     let middle = &settled.frames[settled.frames.len() / 2];
     assert!(apart(first, middle) > apart(last, first));
-    session.send(Command::Set(Knob::SlideRoll, 0.4));
-    let read = session.settled_reader();
-    wait_for(&session, |_| read().is_none());
-    session.send(Command::Stop);
+    session.handle.send(Command::Set(Knob::SlideRoll, 0.4));
+    wait_for(&session, |session| session.handle.settled().is_none());
+    session.handle.send(Command::Stop);
     session.join().unwrap();
 }
 
@@ -160,10 +161,10 @@ fn state_of(scene: &Scene, turns: &[(Knob, f64)]) -> State {
     let (request, _) = self::request(scene, Ending::OnStop);
     let session = Session::start(request).unwrap();
     for (knob, value) in turns {
-        session.send(Command::Set(*knob, *value));
+        session.handle.send(Command::Set(*knob, *value));
     }
     let state = until_settled(&session).state.clone();
-    session.send(Command::Stop);
+    session.handle.send(Command::Stop);
     session.join().unwrap();
     state.unwrap()
 }
@@ -375,7 +376,7 @@ fn drawing_costs_the_simulation() {
         ending: Ending::OnStop,
     };
     let session = Session::start(request).unwrap();
-    wait_for(&session, |session| session.status().steps > 8);
+    wait_for(&session, |session| session.handle.status().steps > 8);
     let setup = setup_planned(&scene, "demonstration_quick", &plan);
     let theme = Theme::new(Capabilities {
         depth: ColorDepth::True,
@@ -387,13 +388,13 @@ fn drawing_costs_the_simulation() {
     };
     let backend = CrosstermBackend::new(std::io::sink());
     let mut terminal = Terminal::with_options(backend, options).unwrap();
-    let latest = session.latest();
+    let latest = session.handle.latest();
     let (mut steps, mut drawing, mut frames) = ([0, 0], Duration::ZERO, 0_u32);
     let began = Instant::now();
     for turn in 0..16 {
         let watched = turn % 2;
         let (from, until) = (
-            session.status().steps,
+            session.handle.status().steps,
             Instant::now() + Duration::from_millis(500),
         );
         while Instant::now() < until {
@@ -409,9 +410,9 @@ fn drawing_costs_the_simulation() {
             }
             std::thread::sleep(Duration::from_millis(22));
         }
-        steps[watched] += session.status().steps - from;
+        steps[watched] += session.handle.status().steps - from;
     }
-    session.send(Command::Stop);
+    session.handle.send(Command::Stop);
     session.join().unwrap();
     println!(
         "steps in 4 s: {} unwatched, {} watched ({:+.1} %); {:.2} ms a frame, {frames} frames",

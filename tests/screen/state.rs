@@ -324,7 +324,7 @@ fn the_material_point_is_chosen_by_body_depth_and_place() {
     let x = point.sample.x_m / app.frame().unwrap().a_m;
     assert!((x - 0.25).abs() < 0.06, "{x}");
     let screen = Rect::new(0, 0, 160, 48);
-    let areas = view::Areas::of(screen, view::Banner::None).unwrap();
+    let areas = view::Areas::of(screen, 0).unwrap();
     let down = PointerAct::Press;
     let (column, row) = (areas.point.x + areas.point.width / 2, areas.point.y + 3);
     let action = view::pointed(&app, screen, mouse(down, column, row));
@@ -419,7 +419,7 @@ fn the_mouse_moves_sliders_and_reads_the_map() {
     let action = view::pointed(&app, screen, mouse(drag, 16, y + 3)).unwrap();
     assert!(matches!(action, Action::Slide(0, part) if part > 0.3));
     // The middle of the map, right of and above its scales, is the middle of the contact.
-    let areas = view::Areas::of(screen, view::Banner::None).unwrap();
+    let areas = view::Areas::of(screen, 0).unwrap();
     let (column, row) = (
         areas.map.x + (areas.map.width - 8) / 2 + 2,
         areas.map.y + areas.map.height / 2 - 1,

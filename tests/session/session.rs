@@ -160,7 +160,7 @@ impl Case {
 }
 
 fn wait_until(session: &Session, ready: impl Fn(u64) -> bool) {
-    while !ready(session.status().steps) {
+    while !ready(session.handle.status().steps) {
         assert!(
             !session.is_finished(),
             "the session ended while it was awaited"
@@ -293,7 +293,7 @@ fn a_live_run_goes_on_without_an_output_that_failed() {
     let planned = Plan::new(&case.scene).unwrap().steps;
     let (session, seen) = case.start();
     wait_until(&session, |steps| steps > planned + 5);
-    session.send(Command::Stop);
+    session.handle.send(Command::Stop);
     let outcome = session.join().unwrap();
     assert!(
         matches!(outcome.end, End::Stopped),
@@ -310,7 +310,7 @@ fn stop_ends_cleanly() {
     case.every_steps = 1_000_000;
     let (session, seen) = case.start();
     wait_until(&session, |steps| steps > 2);
-    session.send(Command::Stop);
+    session.handle.send(Command::Stop);
     let outcome = session.join().unwrap();
     assert!(matches!(outcome.end, End::Stopped));
     assert_eq!((outcome.exit_code(), seen.lock().unwrap().finished), (5, 1));
@@ -325,13 +325,13 @@ fn a_pause_holds_and_steps_singly() {
     case.ending = Ending::OnStop;
     let (session, _) = case.start();
     wait_until(&session, |steps| steps > 2);
-    session.send(Command::Pause);
+    session.handle.send(Command::Pause);
     // Three single steps and a knob, answered in order; then the stop, which wakes a paused run.
-    session.send(Command::StepOnce);
-    session.send(Command::Set(Knob::SlideRoll, 1.5));
-    session.send(Command::StepOnce);
-    session.send(Command::StepOnce);
-    session.send(Command::Stop);
+    session.handle.send(Command::StepOnce);
+    session.handle.send(Command::Set(Knob::SlideRoll, 1.5));
+    session.handle.send(Command::StepOnce);
+    session.handle.send(Command::StepOnce);
+    session.handle.send(Command::Stop);
     let outcome = session.join().unwrap();
     let log = &outcome.applied;
     let paused_at = log[0].step;
@@ -401,9 +401,9 @@ fn a_knob_that_is_refused_is_logged_as_the_words_that_tell_it() {
     let mut case = Case::new(5);
     case.ending = Ending::OnStop;
     let (session, seen) = case.start();
-    session.send(Command::Set(Knob::SlideRoll, 3.0));
+    session.handle.send(Command::Set(Knob::SlideRoll, 3.0));
     wait_until(&session, |steps| steps > 2);
-    session.send(Command::Stop);
+    session.handle.send(Command::Stop);
     let outcome = session.join().unwrap();
     let [told, stopped] = &outcome.applied[..] else {
         panic!("{:?}", outcome.applied);
@@ -428,9 +428,9 @@ fn the_newest_frame_is_there_to_be_taken() {
     let mut case = Case::new(5);
     case.ending = Ending::OnStop;
     let (session, _) = case.start();
-    let latest = session.latest();
+    let latest = session.handle.latest();
     wait_until(&session, |steps| steps > 2);
-    session.send(Command::Stop);
+    session.handle.send(Command::Stop);
     let steps = session.join().unwrap().steps;
     assert_eq!(latest.take().unwrap().step, steps);
     assert!(latest.take().is_none(), "each frame is taken once");

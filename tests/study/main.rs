@@ -1,6 +1,8 @@
-//! What the engine is worth beside other codes, and what leaving stages out costs.
+//! The studies in their quick forms; other codes beside the engine; what leaving stages out costs.
 
 #[path = "../common/engine.rs"]
 mod common;
+mod evidence;
 mod peers;
 mod pruning;
+mod studies;

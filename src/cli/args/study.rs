@@ -19,7 +19,7 @@ pub(crate) struct StudyArgs {
     /// Folder for the report's files; created if missing
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Only cases whose name or group contains this text (stability, scaling, evidence; of accuracy only: default)
+    /// Only cases whose name or group contains this text
     #[arg(long, value_name = "TEXT")]
     pub(crate) only: Option<String>,
     /// Cores to use [default: all]

@@ -23,7 +23,7 @@
 //! contact without sliding (every factor 1) and the anchor; beyond the anchor, where the two have nothing in common (one
 //! raises life, the other lowers it, or they differ beyond [`ALIKE`]), factors are scaled in proportion.
 //!
-//! The formula never sees a simulation. How far it is off: `assets/reports/formula.md`. `n_i` is [`contacts`]'s.
+//! The formula never sees a simulation. How far it is off: `tests/screen/formula.rs`. `n_i` is [`contacts`]'s.
 //!
 //! [`contacts`]: EstimateBasis::contacts
 
@@ -35,7 +35,7 @@ pub use oil::{FilmBasis, OilBasis};
 
 use crate::physics::cycles::{BodyId, Kinematics};
 use crate::physics::fatigue::LifeLaw;
-use crate::physics::hertz::HertzShape;
+use crate::physics::hertz::ContactKind;
 use crate::physics::ripple::{PressureWave, amplitude_ratio, ln_peaks, sliding_integral};
 
 /// An operating point. SI.
@@ -70,9 +70,9 @@ pub struct EstimateBasis {
     /// Same for body 2, 1/m.
     pub crests_2_per_m: f64,
     /// Point or line.
-    pub shape: HertzShape,
+    pub shape: ContactKind,
     /// Section through the contact by which stress goes: that of a line for wide ellipses.
-    pub section: HertzShape,
+    pub section: ContactKind,
     /// A load, N (a line: N/m), at which the next two hold.
     pub load_n: f64,
     /// Hertz half-width along x at that load, m.
@@ -241,7 +241,7 @@ impl Loaded {
         let sliding_m_s = (slide_roll * self.at.entrainment_m_s).abs();
         let film = basis.oil.filter(|oil| self.film_m > oil.contact_film_m);
         film.map_or(basis.boundary, |oil| {
-            oil.friction(basis.shape, (self.p_hertz_pa, self.film_m), sliding_m_s)
+            oil.friction(basis.shape, self.p_hertz_pa, self.film_m, sliding_m_s)
         })
     }
 }
@@ -278,7 +278,7 @@ pub fn speed_ratios(slide_roll: f64) -> (f64, f64) {
 /// What a load factor of 1 becomes when the Hertz pressure is multiplied by `pressure_ratio`:
 /// `r^−(c + k/e)`.
 pub fn load_factor(
-    shape: HertzShape,
+    shape: ContactKind,
     pressure_ratio: f64,
     stress_exponent: f64,
     weibull_slope: f64,
@@ -288,7 +288,7 @@ pub fn load_factor(
 }
 
 /// ln J(µ)/J(0) of a section at [`FRICTIONS`].
-pub fn ln_tractions(section: HertzShape, poisson: f64, law: LifeLaw) -> [f64; FRICTIONS.len()] {
+pub fn ln_tractions(section: ContactKind, poisson: f64, law: LifeLaw) -> [f64; FRICTIONS.len()] {
     let integral =
         |friction| sliding_integral(section, poisson, law.integral_exponent(), friction).ln();
     let smooth = integral(0.0);
@@ -391,6 +391,7 @@ fn crests(per_m: f64, amplitude_m: f64) -> f64 {
 mod tests {
     #![expect(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::physics::fluid::{Rheology, ViscosityLaw};
     use crate::physics::groups;
     use approx::assert_relative_eq;
 
@@ -404,8 +405,8 @@ mod tests {
         EstimateBasis {
             crests_1_per_m: 1e5,
             crests_2_per_m: 1e5,
-            shape: HertzShape::Point,
-            section: HertzShape::Point,
+            shape: ContactKind::Point,
+            section: ContactKind::Point,
             load_n: 800.0,
             half_width_m: 1e-4,
             p_hertz_pa: 1.7e9,
@@ -424,13 +425,14 @@ mod tests {
                     entrainment_m_s: 1.0,
                     force_n: 800.0,
                 }),
-                roelands: true,
-                eyring_pa: Some(5e6),
+                viscosity_law: ViscosityLaw::Roelands,
+                rheology: Rheology::Eyring,
+                eyring_pa: 5e6,
                 limit: 0.08,
                 contact_film_m: 1e-9,
             }),
             boundary: 0.1,
-            ln_traction: ln_tractions(HertzShape::Point, 0.3, law),
+            ln_traction: ln_tractions(ContactKind::Point, 0.3, law),
         }
     }
 
@@ -564,10 +566,10 @@ mod tests {
 
     #[test]
     fn a_line_follows_the_square_root_of_its_load() {
-        let size = HertzShape::Line.size_ratio(4.0);
+        let size = ContactKind::Line.size_ratio(4.0);
         assert_relative_eq!(size, 2.0);
         // N ∝ F^−(c + 2/e)/2.
-        let life = load_factor(HertzShape::Line, size, 31.0 / 3.0, 10.0 / 9.0);
+        let life = load_factor(ContactKind::Line, size, 31.0 / 3.0, 10.0 / 9.0);
         assert_relative_eq!(
             life.ln() / 4.0_f64.ln(),
             -0.5 * (31.0 / 3.0 + 1.8),

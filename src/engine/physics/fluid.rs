@@ -40,6 +40,77 @@ const ROELANDS_P0_PA: f64 = 1.962e8;
 /// Roelands' constant: -ln of 6.315e-5 Pa s.
 const ROELANDS_LN: f64 = 9.67;
 
+crate::closed_set! {
+    /// Viscosity law.
+    #[derive(Default)]
+    pub enum ViscosityLaw {
+        /// `eta0 exp(alpha p)`.
+        Barus = "barus",
+        /// Roelands with the same slope at p = 0.
+        #[default]
+        Roelands = "roelands",
+    }
+}
+
+impl ViscosityLaw {
+    /// The law for pressures over `p_hertz_pa`, Pa, of an oil of `viscosity_pa_s`, Pa s, and slope `alpha_per_pa`, 1/Pa, at
+    /// p = 0.
+    pub fn scaled(self, viscosity_pa_s: f64, alpha_per_pa: f64, p_hertz_pa: f64) -> Viscosity {
+        match self {
+            Self::Barus => Viscosity::barus(alpha_per_pa, p_hertz_pa),
+            Self::Roelands => Viscosity::roelands(viscosity_pa_s, alpha_per_pa, p_hertz_pa),
+        }
+    }
+}
+
+crate::closed_set! {
+    /// Density law.
+    #[derive(Default)]
+    pub enum DensityLaw {
+        /// Constant.
+        Incompressible = "incompressible",
+        /// `1 + 0.6e-9 p/(1 + 1.7e-9 p)`.
+        #[default]
+        DowsonHigginson = "dowson_higginson",
+        /// `(0.59e9 + 1.34 p)/(0.59e9 + p)`: the same law in other round numbers.
+        VennerLubrecht = "venner_lubrecht",
+    }
+}
+
+impl DensityLaw {
+    /// The law for pressures over `p_hertz_pa`, Pa.
+    pub fn scaled(self, p_hertz_pa: f64) -> Density {
+        let p_hertz_gpa = p_hertz_pa * 1e-9;
+        match self {
+            Self::Incompressible => Density::Incompressible,
+            Self::DowsonHigginson => Density::DowsonHigginson { p_hertz_gpa },
+            Self::VennerLubrecht => Density::VennerLubrecht { p_hertz_gpa },
+        }
+    }
+}
+
+crate::closed_set! {
+    /// Shear law of the film.
+    #[derive(Default)]
+    pub enum Rheology {
+        /// Shear stress proportional to shear rate.
+        #[default]
+        Newtonian = "newtonian",
+        /// Ree-Eyring: `tau0 asinh(eta gamma/tau0)`.
+        Eyring = "eyring",
+    }
+}
+
+impl Rheology {
+    /// Shear stress, Pa, where Newtonian oil would have `newtonian_pa`, of an oil with that Eyring stress, Pa.
+    pub fn shear_pa(self, newtonian_pa: f64, eyring_pa: f64) -> f64 {
+        match self {
+            Self::Newtonian => newtonian_pa,
+            Self::Eyring => eyring_pa * (newtonian_pa / eyring_pa).asinh(),
+        }
+    }
+}
+
 /// Viscosity law with its constants made dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Viscosity {

@@ -19,13 +19,16 @@ use std::f64::consts::PI;
 
 use crate::math::spectrum::mean_power;
 
-/// What lies beyond the map.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MapEdges {
-    /// The map again.
-    Repeated,
-    /// Nothing: height 0.
-    Nothing,
+crate::closed_set! {
+    /// What lies beyond a height map.
+    #[derive(Default)]
+    pub enum MapEdge {
+        /// The map again and again.
+        #[default]
+        Periodic = "periodic",
+        /// Nothing: the map stands once and is tapered to zero at its edges.
+        Windowed = "windowed",
+    }
 }
 
 /// Part of the variance of height that lies in waves longer than [`HeightMap::shortest`].
@@ -41,7 +44,7 @@ pub struct HeightMap {
     nx: usize,
     ny: usize,
     shape: Vec<f32>,
-    beyond: MapEdges,
+    beyond: MapEdge,
     /// Greatest departure from the level in the file, m.
     pub peak_m: f64,
     /// Root-mean-square departure from the level over the greatest.
@@ -57,15 +60,15 @@ pub struct HeightMap {
 impl HeightMap {
     /// A map of `nx` columns along x, row after row towards +y; `None` where there is no height at all.
     /// Heights must be finite, in m.
-    pub fn new(nx: usize, heights_m: &[f64], beyond: MapEdges) -> Option<Self> {
+    pub fn new(nx: usize, heights_m: &[f64], beyond: MapEdge) -> Option<Self> {
         let ny = heights_m.len() / nx.max(1);
         if nx == 0 || ny == 0 {
             return None;
         }
         let level = level(nx, ny, heights_m, beyond);
         let window = |at: usize, n: usize| match beyond {
-            MapEdges::Repeated => 1.0,
-            MapEdges::Nothing => taper(at, n),
+            MapEdge::Periodic => 1.0,
+            MapEdge::Windowed => taper(at, n),
         };
         let height = |n: usize| {
             let (i, j) = (n % nx, n / nx);
@@ -112,7 +115,7 @@ impl HeightMap {
     }
 
     /// What lies beyond the map.
-    pub fn beyond(&self) -> MapEdges {
+    pub fn beyond(&self) -> MapEdge {
         self.beyond
     }
 
@@ -169,8 +172,8 @@ impl HeightMap {
     #[inline]
     pub fn wrapped(&self, k: i64, n: usize) -> Option<usize> {
         match self.beyond {
-            MapEdges::Repeated => Some(k.rem_euclid(n as i64) as usize),
-            MapEdges::Nothing => (0..n as i64).contains(&k).then_some(k as usize),
+            MapEdge::Periodic => Some(k.rem_euclid(n as i64) as usize),
+            MapEdge::Windowed => (0..n as i64).contains(&k).then_some(k as usize),
         }
     }
 
@@ -186,11 +189,11 @@ impl HeightMap {
             for (n, &z) in around.enumerate() {
                 let now = i32::from(z > band) - i32::from(z < -band);
                 if now != 0 {
-                    let counted = n >= self.nx || self.beyond == MapEdges::Nothing;
+                    let counted = n >= self.nx || self.beyond == MapEdge::Windowed;
                     crossings += u64::from(counted && side < 0 && now > 0);
                     side = now;
                 }
-                if self.beyond == MapEdges::Nothing && n + 1 == self.nx {
+                if self.beyond == MapEdge::Windowed && n + 1 == self.nx {
                     break;
                 }
             }
@@ -199,7 +202,7 @@ impl HeightMap {
     }
 }
 
-fn level(nx: usize, ny: usize, heights: &[f64], beyond: MapEdges) -> f64 {
+fn level(nx: usize, ny: usize, heights: &[f64], beyond: MapEdge) -> f64 {
     let is_rim = |n: usize| {
         let (i, j) = (n % nx, n / nx);
         i == 0 || j == 0 || i + 1 == nx || j + 1 == ny
@@ -207,7 +210,7 @@ fn level(nx: usize, ny: usize, heights: &[f64], beyond: MapEdges) -> f64 {
     let mut sum = 0.0;
     let mut count = 0.0;
     for (n, &z) in heights.iter().enumerate().take(nx * ny) {
-        if beyond == MapEdges::Repeated || is_rim(n) {
+        if beyond == MapEdge::Periodic || is_rim(n) {
             sum += z;
             count += 1.0;
         }
@@ -260,7 +263,7 @@ mod tests {
                 3.0 + 2e-7 * (TAU * 2.0 * x).cos() * (TAU * y).sin()
             })
             .collect();
-        HeightMap::new(n, &heights, MapEdges::Repeated).unwrap()
+        HeightMap::new(n, &heights, MapEdge::Periodic).unwrap()
     }
 
     #[test]
@@ -292,8 +295,8 @@ mod tests {
         assert!((map.crests * 64.0 - 2.0).abs() < 0.1, "{}", map.crests);
         assert!((map.shortest[0] - 32.0).abs() < 1e-9 && (map.shortest[1] - 64.0).abs() < 1e-9);
         assert!(!map.is_even_in_y);
-        assert!(HeightMap::new(4, &[1.7; 16], MapEdges::Repeated).is_none());
-        assert!(HeightMap::new(0, &[], MapEdges::Repeated).is_none());
+        assert!(HeightMap::new(4, &[1.7; 16], MapEdge::Periodic).is_none());
+        assert!(HeightMap::new(0, &[], MapEdge::Periodic).is_none());
     }
 
     #[test]
@@ -304,7 +307,7 @@ mod tests {
             5.0 - 1e-7 * (-(x * x + y * y) / 30.0).exp()
         };
         let heights: Vec<f64> = (0..n * n).map(bump).collect();
-        let map = HeightMap::new(n, &heights, MapEdges::Nothing).unwrap();
+        let map = HeightMap::new(n, &heights, MapEdge::Windowed).unwrap();
         assert!(map.is_even_in_y);
         assert!((map.sample(0.0, 0.0) + 1.0).abs() < 1e-6, "a dent");
         let exact = -(-(2.5_f64.powi(2) + 1.2_f64.powi(2)) / 30.0).exp();

@@ -37,17 +37,20 @@ pub struct Hertz {
     pub approach_m: f64,
 }
 
-/// How size and pressure follow the load: the one number by which points and lines differ there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum HertzShape {
-    /// Circle or ellipse: a, p_h ∝ w^{1/3}, stressed volume ∝ a³.
-    #[default]
-    Point,
-    /// Line: a, p_h ∝ w^{1/2}, stressed volume per length ∝ a².
-    Line,
+crate::closed_set! {
+    /// Shape of the contact, which says how size and pressure follow the load.
+    #[derive(Default)]
+    pub enum ContactKind {
+        /// Circle or ellipse: a, p_h ∝ w^{1/3}, stressed volume ∝ a³.
+        #[default]
+        Point = "point",
+        /// Cylinders with parallel axes, nothing varies along y, loads per metre of length: a, p_h ∝ w^{1/2}, stressed
+        /// volume per length ∝ a².
+        Line = "line",
+    }
 }
 
-impl HertzShape {
+impl ContactKind {
     /// The k of a, p_h ∝ w^{1/k} and volume ∝ a^k.
     pub fn order(self) -> i32 {
         match self {

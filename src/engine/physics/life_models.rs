@@ -82,7 +82,10 @@ impl LifeEquation {
                 cut_off,
                 ..
             } => -depth_exponent * z.max(cut_off).ln(),
-            _ => 0.0,
+            Self::Zaretsky
+            | Self::LundbergPalmgren { .. }
+            | Self::DangVan { .. }
+            | Self::Findley { .. } => 0.0,
         }
     }
 
@@ -93,7 +96,10 @@ impl LifeEquation {
                 depth_exponent,
                 cut_off,
             } => law.stress_exponent * stress.ln() + (1.0 - depth_exponent) * z.max(cut_off).ln(),
-            _ => law.integral_exponent() * stress.ln(),
+            Self::Zaretsky
+            | Self::IoannidesHarris { .. }
+            | Self::DangVan { .. }
+            | Self::Findley { .. } => law.integral_exponent() * stress.ln(),
         }
     }
 
@@ -120,14 +126,23 @@ impl LifeEquation {
     pub fn width(self, sides: f64) -> f64 {
         match self {
             Self::LundbergPalmgren { .. } => sides - 1.0,
-            _ => 0.0,
+            Self::Zaretsky
+            | Self::IoannidesHarris { .. }
+            | Self::DangVan { .. }
+            | Self::Findley { .. } => 0.0,
         }
     }
 
     /// Exponent s of life against the Hertz pressure of the smooth contact with the same radii, `N ∝ p_h^{−s}`;
     /// `None` where a limit breaks the power law. `sides` as in [`LifeEquation::growth`].
     pub fn pressure_exponent(self, law: LifeLaw, sides: f64) -> Option<f64> {
-        let limited = matches!(self, Self::IoannidesHarris { limit, .. } if limit != 0.0);
+        let limited = match self {
+            Self::IoannidesHarris { limit, .. } => limit != 0.0,
+            Self::Zaretsky
+            | Self::LundbergPalmgren { .. }
+            | Self::DangVan { .. }
+            | Self::Findley { .. } => false,
+        };
         let exponent = (self.growth(law, sides, false) + self.width(sides)) / law.weibull_slope;
         (!limited).then_some(exponent)
     }

@@ -21,9 +21,9 @@
 //! memory and held to amplitudes that the papers computed, within 0.04); stress, [`super::stress_exact`] and McEwen (1949).
 //!
 //! Left out: what the film does to a wave in sliding, the film's own waves, contacts beyond partial flattening of one
-//! wave, wide ellipses (a section of a line stands in from b/a = 2 on). How far it is off: `assets/reports/formula.md`.
+//! wave, wide ellipses (a section of a line stands in from b/a = 2 on). How far it is off: `tests/screen/formula.rs`.
 
-use super::hertz::HertzShape;
+use super::hertz::ContactKind;
 use super::invariants::Stress6;
 use super::stress_exact::{hertz_sliding, westergaard};
 
@@ -52,13 +52,13 @@ const RADIUS: f64 = 1.15;
 const PHASES: usize = 6;
 
 /// Deformed over undeformed amplitude of a wave of length `wave` (in a) in rolling.
-pub fn amplitude_ratio(shape: HertzShape, wave: f64, m: f64, l: f64) -> f64 {
+pub fn amplitude_ratio(shape: ContactKind, wave: f64, m: f64, l: f64) -> f64 {
     match shape {
-        HertzShape::Point => {
+        ContactKind::Point => {
             let nabla = wave * (m / l).sqrt();
             1.0 / (1.0 + 0.15 * nabla + 0.015 * nabla * nabla)
         }
-        HertzShape::Line => {
+        ContactKind::Line => {
             let nabla = wave * m.powf(0.75) / l.sqrt();
             1.0 / (1.0 + 0.125 * nabla + 0.04 * nabla * nabla)
         }
@@ -66,10 +66,10 @@ pub fn amplitude_ratio(shape: HertzShape, wave: f64, m: f64, l: f64) -> f64 {
 }
 
 /// Stress of a Hertz contact by which the quadrature goes: at depth `z` below a point `x` along the radius.
-fn hertz(shape: HertzShape, x: f64, z: f64, poisson: f64, friction: f64) -> Stress6 {
+fn hertz(shape: ContactKind, x: f64, z: f64, poisson: f64, friction: f64) -> Stress6 {
     match shape {
-        HertzShape::Point => hertz_sliding(x, 0.0, z, poisson, friction),
-        HertzShape::Line => line_sliding(x, z, poisson, friction),
+        ContactKind::Point => hertz_sliding(x, 0.0, z, poisson, friction),
+        ContactKind::Line => line_sliding(x, z, poisson, friction),
     }
 }
 
@@ -98,12 +98,12 @@ pub fn line_sliding(x: f64, z: f64, poisson: f64, friction: f64) -> Stress6 {
 }
 
 /// A point of the quadrature: place along the radius, depth, weight of its volume.
-fn points(shape: HertzShape) -> impl Iterator<Item = (f64, f64, f64)> {
+fn points(shape: ContactKind) -> impl Iterator<Item = (f64, f64, f64)> {
     (0..RADII).flat_map(move |i| {
         let x = RADIUS * (i as f64 + 0.5) / RADII as f64;
         let across = match shape {
-            HertzShape::Point => std::f64::consts::TAU * x,
-            HertzShape::Line => 2.0,
+            ContactKind::Point => std::f64::consts::TAU * x,
+            ContactKind::Line => 2.0,
         } * RADIUS
             / RADII as f64;
         (0..DEPTHS).map(move |k| {
@@ -116,18 +116,18 @@ fn points(shape: HertzShape) -> impl Iterator<Item = (f64, f64, f64)> {
 }
 
 /// J of a smooth contact with `q = friction · p`, frictionless with 0.
-pub fn sliding_integral(shape: HertzShape, poisson: f64, exponent: f64, friction: f64) -> f64 {
+pub fn sliding_integral(shape: ContactKind, poisson: f64, exponent: f64, friction: f64) -> f64 {
     let sides: &[(f64, f64)] = match shape {
         // Over half a turn: a point in front feels traction otherwise than one behind.
-        HertzShape::Point => &[(0.92, 0.38), (0.38, 0.92), (-0.38, 0.92), (-0.92, 0.38)],
-        HertzShape::Line => &[(1.0, 0.0), (-1.0, 0.0)],
+        ContactKind::Point => &[(0.92, 0.38), (0.38, 0.92), (-0.38, 0.92), (-0.92, 0.38)],
+        ContactKind::Line => &[(1.0, 0.0), (-1.0, 0.0)],
     };
     points(shape)
         .map(|(r, z, volume)| {
             let each = sides.iter().map(|(cos, sin)| {
                 let stress = match shape {
-                    HertzShape::Point => hertz_sliding(r * cos, r * sin, z, poisson, friction),
-                    HertzShape::Line => line_sliding(r * cos, z, poisson, friction),
+                    ContactKind::Point => hertz_sliding(r * cos, r * sin, z, poisson, friction),
+                    ContactKind::Line => line_sliding(r * cos, z, poisson, friction),
                 };
                 stress.von_mises().powf(exponent)
             });
@@ -137,7 +137,7 @@ pub fn sliding_integral(shape: HertzShape, poisson: f64, exponent: f64, friction
 }
 
 /// ln of J with the waves over J without them: frictionless, mean over the phases of both bodies.
-pub fn ln_peaks(shape: HertzShape, poisson: f64, exponent: f64, waves: &[PressureWave]) -> f64 {
+pub fn ln_peaks(shape: ContactKind, poisson: f64, exponent: f64, waves: &[PressureWave]) -> f64 {
     let crest: f64 = waves.iter().map(|wave| wave.pressure).sum();
     if crest <= 0.0 {
         return 0.0;
@@ -159,7 +159,7 @@ pub fn ln_peaks(shape: HertzShape, poisson: f64, exponent: f64, waves: &[Pressur
 }
 
 fn mean_over_phases(
-    shape: HertzShape,
+    shape: ContactKind,
     base: &Stress6,
     (r, z): (f64, f64),
     poisson: f64,
@@ -168,8 +168,8 @@ fn mean_over_phases(
     waves: &[PressureWave],
 ) -> f64 {
     let angles = match shape {
-        HertzShape::Point => ANGLES,
-        HertzShape::Line => 1,
+        ContactKind::Point => ANGLES,
+        ContactKind::Line => 1,
     };
     let phases = [0, 1].map(|body| {
         let moves = waves.iter().any(|w| w.body == body && w.pressure > 0.0);
@@ -178,8 +178,8 @@ fn mean_over_phases(
     let mut sum = 0.0;
     for turn in 0..angles {
         let angle = match shape {
-            HertzShape::Point => std::f64::consts::FRAC_PI_2 * (turn as f64 + 0.5) / ANGLES as f64,
-            HertzShape::Line => 0.0,
+            ContactKind::Point => std::f64::consts::FRAC_PI_2 * (turn as f64 + 0.5) / ANGLES as f64,
+            ContactKind::Line => 0.0,
         };
         let (sin, cos) = angle.sin_cos();
         let turned = rotated(base, cos, sin);
@@ -238,11 +238,11 @@ mod tests {
     fn smooth_integrals_are_the_known_ones() {
         // Circular with q = μ p, and the line: worked out independently (design notes, ±1 %).
         for (friction, known) in [(0.0, 1.175e-3), (0.1, 1.279e-3), (0.2, 1.657e-3)] {
-            let got = sliding_integral(HertzShape::Point, 0.3, M, friction);
+            let got = sliding_integral(ContactKind::Point, 0.3, M, friction);
             println!("circle, friction {friction}: {got:.4e}, known {known:.4e}");
             assert_relative_eq!(got, known, max_relative = 0.04);
         }
-        let line = sliding_integral(HertzShape::Line, 0.3, M, 0.0);
+        let line = sliding_integral(ContactKind::Line, 0.3, M, 0.0);
         println!("line: {line:.4e}, known 1.007e-3");
         // Eighteen points over a half-width and twenty-eight down: the same quadrature as the circle's, the same room.
         // It stands above and below the line of every ratio that is made of it.
@@ -256,7 +256,7 @@ mod tests {
             pressure,
             body: 0,
         };
-        for shape in [HertzShape::Point, HertzShape::Line] {
+        for shape in [ContactKind::Point, ContactKind::Line] {
             assert_eq!(ln_peaks(shape, 0.3, M, &[wave(0.0)]), 0.0);
             let ln: Vec<f64> = [0.02, 0.1, 0.3, 1.0]
                 .map(|pressure| ln_peaks(shape, 0.3, M, &[wave(pressure)]))
@@ -288,12 +288,12 @@ mod tests {
     #[test]
     fn amplitudes_by_the_published_curves() {
         // Short waves pass undeformed, long ones are flattened.
-        for shape in [HertzShape::Point, HertzShape::Line] {
+        for shape in [ContactKind::Point, ContactKind::Line] {
             assert!(amplitude_ratio(shape, 1e-4, 100.0, 10.0) > 0.99);
             assert!(amplitude_ratio(shape, 10.0, 1000.0, 10.0) < 0.05);
         }
         // ∇ = 4.5: 1/(1 + 0.675 + 0.30375).
-        let got = amplitude_ratio(HertzShape::Point, 4.5, 10.0, 10.0);
+        let got = amplitude_ratio(ContactKind::Point, 4.5, 10.0, 10.0);
         assert_relative_eq!(got, 1.0 / 1.97875, max_relative = 1e-9);
     }
 
@@ -303,11 +303,11 @@ mod tests {
     fn the_curves_pass_through_the_computed_amplitudes() {
         let computed = [
             // Venner, Couhier, Lubrecht and Greenwood (1997): M = 100, L = 11.
-            (HertzShape::Line, 2.0, 100.0, 11.0, 0.073),
-            (HertzShape::Line, 0.5, 100.0, 11.0, 0.394),
-            (HertzShape::Line, 0.125, 100.0, 11.0, 0.839),
+            (ContactKind::Line, 2.0, 100.0, 11.0, 0.073),
+            (ContactKind::Line, 0.5, 100.0, 11.0, 0.394),
+            (ContactKind::Line, 0.125, 100.0, 11.0, 0.839),
             // Venner and Lubrecht (2000): circular, isotropic waves of a/4.
-            (HertzShape::Point, 0.25, 1007.6, 12.05, 0.739),
+            (ContactKind::Point, 0.25, 1007.6, 12.05, 0.739),
         ];
         for (shape, wave, m, l, known) in computed {
             let got = amplitude_ratio(shape, wave, m, l);

@@ -7,7 +7,9 @@ use super::{
 };
 use crate::physics::film_regression;
 use crate::physics::hertz::Hertz;
-use crate::scene::{ContactKind, EyringFlow, Knob, Order, Rheology, Scene, Spread, Surface};
+use crate::scene::{
+    ContactKind, EyringFlow, Knob, Order, Rheology, Scene, Spread, Surface, SurfaceKind,
+};
 
 pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
     if let Some(line) = scene.line_point() {
@@ -54,9 +56,11 @@ fn with_lambda(mut film: FilmPlan, scene: &Scene) -> FilmPlan {
 }
 
 fn eyring_flow(scene: &Scene) -> Option<EyringFlow> {
-    let oil = scene.lubricant.as_ref();
-    oil.filter(|oil| oil.rheology == Rheology::Eyring)
-        .map(|oil| oil.eyring_flow)
+    let oil = scene.lubricant.as_ref()?;
+    match oil.rheology {
+        Rheology::Newtonian => None,
+        Rheology::Eyring => Some(oil.eyring_flow),
+    }
 }
 
 fn valleys(scene: &Scene) -> Valleys {
@@ -74,7 +78,10 @@ fn valleys(scene: &Scene) -> Valleys {
         Surface::HeightMap { .. } => false,
     };
     let surfaces = scene.surfaces();
-    let is_map = |surface: &Surface| matches!(surface, Surface::HeightMap { .. });
+    let is_map = |surface: &Surface| match surface.kind() {
+        SurfaceKind::Smooth | SurfaceKind::Sinusoid => false,
+        SurfaceKind::HeightMap => true,
+    };
     if surfaces.iter().any(|surface| leads_out(surface))
         && !surfaces.iter().any(|surface| is_map(surface))
     {
@@ -136,7 +143,7 @@ fn scripted(scene: &Scene, knob: Knob) -> impl Iterator<Item = f64> {
 pub(super) fn greatest_size(scene: &Scene) -> f64 {
     let own = scene.force_n();
     let most = scripted(scene, Knob::of_load(scene.kind())).fold(own, f64::max);
-    scene.kind().hertz_shape().size_ratio(most / own)
+    scene.kind().size_ratio(most / own)
 }
 
 /// Order of the discretisation; without a film that of the deflection.

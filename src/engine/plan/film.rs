@@ -9,7 +9,7 @@
 use super::{FilmPlan, OtherFilms};
 use crate::physics::film_regression::nijenbanning_central;
 use crate::physics::groups::Groups;
-use crate::physics::hertz::HertzShape;
+use crate::physics::hertz::ContactKind;
 use crate::physics::line::moes_central;
 
 impl FilmPlan {
@@ -57,26 +57,26 @@ impl FilmPlan {
         (rq_m > 0.0).then(|| self.smooth_m() / rq_m)
     }
 
-    fn shape(&self) -> HertzShape {
+    fn shape(&self) -> ContactKind {
         match self.others {
-            OtherFilms::HamrockDowson { .. } => HertzShape::Point,
-            OtherFilms::DowsonHigginson { .. } => HertzShape::Line,
+            OtherFilms::HamrockDowson { .. } => ContactKind::Point,
+            OtherFilms::DowsonHigginson { .. } => ContactKind::Line,
         }
     }
 
     fn in_moes_units(&self, groups: Groups) -> f64 {
         match self.shape() {
-            HertzShape::Point => nijenbanning_central(self.radii_ratio, groups.m, groups.l),
-            HertzShape::Line => moes_central(groups.m, groups.l),
+            ContactKind::Point => nijenbanning_central(self.radii_ratio, groups.m, groups.l),
+            ContactKind::Line => moes_central(groups.m, groups.l),
         }
     }
 }
 
-fn groups_at(shape: HertzShape, groups: Groups, speed: f64, load: f64) -> Groups {
+fn groups_at(shape: ContactKind, groups: Groups, speed: f64, load: f64) -> Groups {
     let size = shape.size_ratio(load);
     let by_speed = match shape {
-        HertzShape::Point => -0.75,
-        HertzShape::Line => -0.5,
+        ContactKind::Point => -0.75,
+        ContactKind::Line => -0.5,
     };
     Groups {
         speed: groups.speed * speed,

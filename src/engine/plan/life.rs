@@ -41,8 +41,10 @@ pub struct LifeAsked {
 impl LifeAsked {
     /// Whether a model integrates stress over the volume.
     pub fn volumes(&self) -> bool {
-        let integrates = matches!(self.model, LifeModel::Zaretsky | LifeModel::IoannidesHarris);
-        integrates || self.spread == Spread::Models
+        match self.spread {
+            Spread::Models => true,
+            Spread::Off | Spread::Cycles => self.model.integrates(),
+        }
     }
 }
 

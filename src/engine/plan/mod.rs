@@ -323,7 +323,7 @@ impl Plan {
     pub fn carried_force_n(&self) -> f64 {
         self.yielding.map_or(f64::INFINITY, |(hardness_pa, _)| {
             let ratio = hardness_pa / (LEAST_HARDNESS * self.hertz.p_max_pa);
-            self.force_n * ratio.powi(self.kind.hertz_shape().order())
+            self.force_n * ratio.powi(self.kind.order())
         })
     }
 
@@ -336,7 +336,7 @@ impl Plan {
             ContactKind::Point => along.min(domain.y_half_b - 2.0 * domain.dy_b()),
             ContactKind::Line => along,
         };
-        let held = size.max(1.0).powi(self.kind.hertz_shape().order());
+        let held = size.max(1.0).powi(self.kind.order());
         (self.force_n * held).min(self.carried_force_n())
     }
 

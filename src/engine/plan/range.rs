@@ -40,7 +40,7 @@ pub(super) fn check(
 }
 
 fn too_large(scene: &Scene, slope: f64) -> PlanError {
-    let order = scene.kind().hertz_shape().order();
+    let order = scene.kind().order();
     let ratio = SLOPE_MAX / slope;
     let (key, value, most, unit) = match (scene.load.hertz_pressure_pa, scene.kind()) {
         (Some(p_pa), _) => ("load.hertz_pressure_pa", p_pa, p_pa * ratio, "Pa"),

@@ -180,20 +180,23 @@ fn check_settings(path: &str, value: &mut Value) -> Result<(), SceneError> {
 }
 
 fn check_value(full: &str, key: &Key, value: &mut Value) -> Result<(), SceneError> {
-    let is_number = matches!(
-        key.kind,
-        Kind::Number(..) | Kind::EitherSign(..) | Kind::NumberOrInf(..)
-    );
-    if let (true, Value::Integer(whole)) = (is_number, &*value) {
-        *value = Value::Float(*whole as f64);
-    }
-    let fits = match (key.kind, &*value) {
-        (Kind::Text(longest), Value::String(text)) => text.chars().count() <= longest,
-        (kind, Value::Float(number)) => kind.takes(*number),
-        (Kind::Integer(min, max), Value::Integer(whole)) => (min..=max).contains(whole),
-        (Kind::IntegerOf(values), Value::Integer(whole)) => values.contains(whole),
-        (Kind::Choice(words), Value::String(text)) => words.contains(&text.as_str()),
-        _ => false,
+    let fits = match key.kind {
+        Kind::Text(longest) => (value.as_str()).is_some_and(|text| text.chars().count() <= longest),
+        Kind::Number(..) | Kind::EitherSign(..) | Kind::NumberOrInf(..) => {
+            if let Value::Integer(whole) = *value {
+                *value = Value::Float(whole as f64);
+            }
+            value
+                .as_float()
+                .is_some_and(|number| key.kind.takes(number))
+        }
+        Kind::Integer(min, max) => {
+            (value.as_integer()).is_some_and(|whole| (min..=max).contains(&whole))
+        }
+        Kind::IntegerOf(values) => {
+            (value.as_integer()).is_some_and(|whole| values.contains(&whole))
+        }
+        Kind::Choice(words) => value.as_str().is_some_and(|text| words.contains(&text)),
     };
     if fits {
         Ok(())

@@ -2,7 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::model::{ContactKind, MapEdge, Scene, Surface};
+use super::model::{ContactKind, MapEdge, Scene, Surface, SurfaceKind};
 use crate::physics::groups::PointContact;
 use crate::physics::hertz::{self, Hertz};
 use crate::physics::line::{self, LinePoint};
@@ -142,21 +142,23 @@ impl Surface {
                 pixel_m, edge, map, ..
             } => {
                 let nx = map.as_ref()?.nx();
-                (*edge == MapEdge::Periodic).then(|| (nx as f64 * pixel_m, 0.0))
+                match edge {
+                    MapEdge::Periodic => Some((nx as f64 * pixel_m, 0.0)),
+                    MapEdge::Windowed => None,
+                }
             }
         }
     }
 
     /// Whether damage can be gathered in a block: a map that stands once never comes back.
     pub fn has_block(&self) -> bool {
-        self.block_m().is_some()
-            || !matches!(
-                self,
-                Self::HeightMap {
-                    edge: MapEdge::Windowed,
-                    ..
-                }
-            )
+        match self {
+            Self::Smooth {} | Self::Sinusoid { .. } => true,
+            Self::HeightMap { edge, .. } => match edge {
+                MapEdge::Periodic => true,
+                MapEdge::Windowed => false,
+            },
+        }
     }
 
     /// A, m; 0 for a smooth surface.
@@ -201,7 +203,16 @@ impl Surface {
 
     /// Whether there is no micro-geometry at all (an amplitude of 0 may still be turned up).
     pub fn is_smooth(&self) -> bool {
-        matches!(self, Self::Smooth {})
+        self.kind() == SurfaceKind::Smooth
+    }
+
+    /// Its kind.
+    pub fn kind(&self) -> SurfaceKind {
+        match self {
+            Self::Smooth {} => SurfaceKind::Smooth,
+            Self::Sinusoid { .. } => SurfaceKind::Sinusoid,
+            Self::HeightMap { .. } => SurfaceKind::HeightMap,
+        }
     }
 
     /// Crests per metre along x, f: one a wave; of a height map the upcrossings of its level.
@@ -210,7 +221,7 @@ impl Surface {
             Self::HeightMap {
                 pixel_m, ref map, ..
             } => map.as_ref().map_or(0.0, |map| map.crests / pixel_m),
-            _ => self.wavenumbers_per_m()[0],
+            Self::Smooth {} | Self::Sinusoid { .. } => self.wavenumbers_per_m()[0],
         }
     }
 

@@ -13,7 +13,7 @@ use super::error::{SceneError, shortened};
 use super::keys::{joined, short};
 use super::presets;
 use crate::files::{FnvHasher, read_up_to};
-use crate::physics::height_map::{HeightMap, MapEdges};
+use crate::physics::height_map::{HeightMap, MapEdge};
 
 /// Largest file, bytes.
 const LARGEST_FILE: u64 = 64 << 20;
@@ -49,7 +49,7 @@ pub(super) fn read(
     base: &Path,
     file: &str,
     unit_m: f64,
-    beyond: MapEdges,
+    beyond: MapEdge,
 ) -> Result<(HeightMap, String), SceneError> {
     let refused = |r: Refusal| {
         let found = format!("{} ({})", shortened(file), r.found);

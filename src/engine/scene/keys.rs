@@ -19,6 +19,10 @@ pub struct Section {
 use Kind::{Choice, EitherSign, Integer, IntegerOf, Number, NumberOrInf, Text};
 use Need::{Defaulted, Optional, Required};
 
+use super::lubricant::{Cavitation, DensityLaw, EyringFlow, Rheology, ViscosityLaw};
+use super::model::{ContactKind, MapEdge, StressMeasure, SurfaceKind};
+use super::numerics::{ErrorSource, OrderAsked};
+
 #[rustfmt::skip]
 const BODY: &[Key] = &[
     key("young_pa", "Pa", Number(1e6, 1e13), Defaulted, "Young's modulus"),
@@ -27,11 +31,11 @@ const BODY: &[Key] = &[
 ];
 #[rustfmt::skip]
 const SURFACE: &[Key] = &[
-    key("kind", "", Choice(&["smooth", "sinusoid", "height_map"]), Required, "micro-geometry that moves with the body"),
+    key("kind", "", Choice(SurfaceKind::KEYS), Required, "micro-geometry that moves with the body"),
     key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file; or builtin:NAME"),
     key("digest", "", Text(16), Optional("the file is taken as it is"), "digest of the file's numbers: a file of another is refused; written by the program"),
     key("pixel_m", "m", Number(1e-9, 1e-2), Required, "side of a pixel"),
-    key("edge", "", Choice(&["periodic", "windowed"]), Defaulted, "repeated without end (mean subtracted), or once (mean of the rim subtracted, tapered to 0)"),
+    key("edge", "", Choice(MapEdge::KEYS), Defaulted, "repeated without end (mean subtracted), or once (mean of the rim subtracted, tapered to 0)"),
     key("unit_m", "m", Number(1e-12, 1e3), Defaulted, "height that a value of 1 stands for"),
     key("start_x_m", "m", Number(-1e3, 1e3), Optional("just upstream of the domain"), "where the middle of a windowed map is at t = 0"),
     key("amplitude_m", "m", Number(0.0, 1e-4), Required, "sinusoid: A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy), peak to valley is 2 A; height map: greatest departure from its level; omitted: as in the file"),
@@ -58,7 +62,7 @@ pub const SECTIONS: &[Section] = &[
         need: Required,
         doc: "Shape of the contact, as equivalent radii: 1/R = 1/R_1 + 1/R_2.",
         keys: &[
-            key("kind", "", Choice(&["point", "line"]), Required, "ball or barrel on anything, or parallel cylinders"),
+            key("kind", "", Choice(ContactKind::KEYS), Required, "ball or barrel on anything, or parallel cylinders"),
             key("rx_m", "m", Number(1e-6, 100.0), Required, "equivalent radius along the rolling direction x"),
             key("ry_m", "m", Number(1e-6, 100.0), Optional("a line contact"), "equivalent radius across; point contact only"),
         ],
@@ -94,13 +98,13 @@ pub const SECTIONS: &[Section] = &[
         keys: &[
             key("viscosity_pa_s", "Pa s", Number(1e-6, 1e4), Required, "viscosity at ambient pressure"),
             key("pressure_viscosity_per_pa", "1/Pa", Number(0.0, 1e-7), Required, "pressure-viscosity coefficient alpha"),
-            key("viscosity_law", "", Choice(&["barus", "roelands"]), Defaulted, "viscosity against pressure"),
-            key("density_law", "", Choice(&["incompressible", "dowson_higginson", "venner_lubrecht"]), Defaulted, "density against pressure p in GPa: 1 + 0.6 p/(1 + 1.7 p), or the same law with other round numbers, (0.59 + 1.34 p)/(0.59 + p)"),
-            key("rheology", "", Choice(&["newtonian", "eyring"]), Defaulted, "shear law of the film"),
+            key("viscosity_law", "", Choice(ViscosityLaw::KEYS), Defaulted, "viscosity against pressure"),
+            key("density_law", "", Choice(DensityLaw::KEYS), Defaulted, "density against pressure p in GPa: 1 + 0.6 p/(1 + 1.7 p), or the same law with other round numbers, (0.59 + 1.34 p)/(0.59 + p)"),
+            key("rheology", "", Choice(Rheology::KEYS), Defaulted, "shear law of the film"),
             key("eyring_stress_pa", "Pa", Number(1e4, 1e9), Defaulted, "Eyring stress tau0; read when rheology = \"eyring\""),
-            key("eyring_flow", "", Choice(&["along_across", "secant"]), Defaulted, "viscosity that the pressure's flow meets in sheared oil: along the sliding that of Eyring's law itself, across it its secant; or the secant in both directions, as in Zhu and Hu's codes and the paper; read when rheology = \"eyring\""),
+            key("eyring_flow", "", Choice(EyringFlow::KEYS), Defaulted, "viscosity that the pressure's flow meets in sheared oil: along the sliding that of Eyring's law itself, across it its secant; or the secant in both directions, as in Zhu and Hu's codes and the paper; read when rheology = \"eyring\""),
             key("limiting_shear_ratio", "", Number(1e-3, 1.0), Defaulted, "limiting shear stress as a fraction of the pressure"),
-            key("cavitation", "", Choice(&["reynolds", "jfo"]), Defaulted, "how the film ruptures"),
+            key("cavitation", "", Choice(Cavitation::KEYS), Defaulted, "how the film ruptures"),
         ],
     },
     Section {
@@ -159,8 +163,8 @@ pub const SECTIONS: &[Section] = &[
         keys: &[
             key("tolerance", "", Number(1e-9, 0.1), Defaulted, "relative change of the pressure"),
             key("max_iterations", "", Integer(1, 1000), Defaulted, "most Newton iterations of one step"),
-            key("order", "", Choice(&["second", "high", "by_mesh"]), Defaulted, "of steps, flow and deflection where they are smooth: 2, or 3 in time and up to 4 in space; by_mesh: high as long as the mesh carries the smooth film"),
-            key("error_estimate", "", Choice(&["companion", "none"]), Defaulted, "headless runs: error of the mesh from a second run on half the nodes, or none"),
+            key("order", "", Choice(OrderAsked::KEYS), Defaulted, "of steps, flow and deflection where they are smooth: 2, or 3 in time and up to 4 in space; by_mesh: high as long as the mesh carries the smooth film"),
+            key("error_estimate", "", Choice(ErrorSource::KEYS), Defaulted, "headless runs: error of the mesh from a second run on half the nodes, or none"),
         ],
     },
     Section {
@@ -170,7 +174,7 @@ pub const SECTIONS: &[Section] = &[
         keys: &[
             key("depths", "", Integer(8, 256), Defaulted, "number of depths"),
             key("depth_max_a", "a", Number(0.5, 20.0), Defaulted, "deepest point, in the narrower Hertz half-width; life needs 2 or more"),
-            key("measure", "", Choice(&["von_mises", "max_shear", "octahedral"]), Defaulted, "effective stress that drives fatigue"),
+            key("measure", "", Choice(StressMeasure::KEYS), Defaulted, "effective stress that drives fatigue"),
             key("plane_x_a", "a", Number(-20.0, 20.0), Optional("no such plane"), "a plane x = const of body 1 in every frame that is shown, beside y = 0; some 10 ms each at 129 nodes"),
             key("plane_y_a", "a", Number(-20.0, 20.0), Optional("no such plane"), "a plane y = const, likewise"),
             key("plane_z_a", "a", Number(1e-3, 20.0), Optional("no such plane"), "a plane z = const, likewise"),
@@ -225,6 +229,24 @@ impl Kind {
             Text(_) | Integer(..) | IntegerOf(_) | Choice(_) => false,
         }
     }
+
+    /// The finite numbers that it takes on that side of 0 where `home` is; `None`: it takes no numbers but whole ones.
+    pub fn range(&self, home: f64) -> Option<(f64, f64)> {
+        match *self {
+            EitherSign(min, max) if home < 0.0 => Some((-max, -min)),
+            Number(min, max) | EitherSign(min, max) | NumberOrInf(min, max) => Some((min, max)),
+            Text(_) | Integer(..) | IntegerOf(_) | Choice(_) => None,
+        }
+    }
+
+    /// Whether that word is one of its choices.
+    pub fn is_choice(&self, word: &str) -> bool {
+        match *self {
+            Choice(words) => words.contains(&word),
+            Text(_) | Number(..) | EitherSign(..) | NumberOrInf(..) | Integer(..)
+            | IntegerOf(_) => false,
+        }
+    }
 }
 
 impl Key {
@@ -251,14 +273,7 @@ impl Key {
                 let list: Vec<_> = values.iter().map(i64::to_string).collect();
                 format!("one of {}", list.join(", "))
             }
-            Choice(words) => {
-                let list: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
-                if list.len() == 1 {
-                    format!("{} (more in later versions)", list[0])
-                } else {
-                    list.join(" or ")
-                }
-            }
+            Choice(words) => quoted(words),
         }
     }
 }
@@ -277,24 +292,20 @@ impl Key {
             self.name,
             "file" | "digest" | "pixel_m" | "edge" | "unit_m" | "start_x_m"
         );
-        match (kind, self.name) {
-            (Some("smooth"), _) => None,
-            (Some("height_map"), "amplitude_m") => Some(Optional("as in the file")),
-            (Some("height_map"), _) => of_map.then_some(self.need),
-            _ => (!of_map).then_some(self.need),
+        match kind.and_then(SurfaceKind::from_key) {
+            Some(SurfaceKind::Smooth) => None,
+            Some(SurfaceKind::HeightMap) if self.name == "amplitude_m" => {
+                Some(Optional("as in the file"))
+            }
+            Some(SurfaceKind::HeightMap) => of_map.then_some(self.need),
+            Some(SurfaceKind::Sinusoid) | None => (!of_map).then_some(self.need),
         }
     }
 
     /// The kinds of surface that take the key, for messages.
-    pub(super) fn kinds(&self) -> &'static str {
-        match (
-            self.need_in(".surface", Some("sinusoid")),
-            self.need_in(".surface", Some("height_map")),
-        ) {
-            (Some(_), None) => "\"sinusoid\"",
-            (None, Some(_)) => "\"height_map\"",
-            _ => "\"sinusoid\" or \"height_map\"",
-        }
+    pub(super) fn kinds(&self) -> String {
+        let takes = |kind: &&&str| self.need_in(".surface", Some(kind)).is_some();
+        quoted(SurfaceKind::KEYS.iter().filter(takes))
     }
 }
 
@@ -335,6 +346,15 @@ pub fn joined(table: &str, name: &str) -> String {
     } else {
         format!("{table}.{name}")
     }
+}
+
+/// Words as scenes write them: `"point" or "line"`.
+fn quoted<'a>(words: impl IntoIterator<Item = &'a &'a str>) -> String {
+    let list: Vec<_> = words
+        .into_iter()
+        .map(|word| format!("\"{word}\""))
+        .collect();
+    list.join(" or ")
 }
 
 /// A number in the fewest characters that read well: 0.3, 1e-6, 2.1e11.

@@ -1,36 +1,34 @@
-//! The knobs that may be turned while a simulation runs: each a line of one table. Scripted events, sweeps, the drive, the
+//! The knobs that may be turned while a simulation runs: each with a line of what it is. Scripted events, sweeps, the drive, the
 //! explorer and the help read it; unit, range and meaning are those of the [key](Knob::scene_key) that it turns.
 
 use std::fmt::Write as _;
 
-use super::keys::{self, Key, Kind};
-use super::{ContactKind, Scene, Surface};
+use super::keys::{self, Key};
+use super::{ContactKind, Load, Scene, Surface};
 
-/// A knob. Values are SI; a knob is a target that the drive walks towards, so that turning it is a
-/// physical ramp and not a jump.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Knob {
-    /// S = (U2 - U1)/U.
-    SlideRoll,
-    /// The load of a point contact, N.
-    ForceN,
-    /// Amplitude of body 1, m.
-    Amplitude1M,
-    /// Amplitude of body 2, m.
-    Amplitude2M,
-    /// Entrainment speed, m/s.
-    EntrainmentMS,
-    /// The load of a line, N/m.
-    ForceNPerM,
+crate::closed_set! {
+    /// A knob, each with the scene key that it turns and its symbol and name on the screen. Values are SI; a knob is a target
+    /// that the drive walks towards, so that turning it is a physical ramp and not a jump.
+    #[derive(Hash, PartialOrd, Ord)]
+    pub enum Knob {
+        /// S = (U2 - U1)/U.
+        SlideRoll = "motion.slide_roll" "S slide-to-roll",
+        /// The load of a point contact, N.
+        ForceN = "load.force_n" "load",
+        /// Amplitude of body 1, m.
+        Amplitude1M = "body_1.surface.amplitude_m" "A₁ roughness 1",
+        /// Amplitude of body 2, m.
+        Amplitude2M = "body_2.surface.amplitude_m" "A₂ roughness 2",
+        /// Entrainment speed, m/s.
+        EntrainmentMS = "motion.entrainment_m_s" "U entrainment",
+        /// The load of a line, N/m.
+        ForceNPerM = "load.force_n_per_m" "load",
+    }
 }
 
 /// What the table says of a knob.
 #[derive(Debug, Clone, Copy)]
 pub struct KnobLine {
-    /// The scene key that it turns.
-    pub key: &'static str,
-    /// Symbol and name on the screen.
-    pub label: &'static str,
     /// Scalar of a frame that says where it is.
     pub quantity: &'static str,
     /// Scalar that says where it is going, if frames tell.
@@ -84,8 +82,6 @@ impl RampRate {
 }
 
 const AMPLITUDE: KnobLine = KnobLine {
-    key: "",
-    label: "",
     quantity: "",
     target: None,
     reach: Reach::FromZero(2.0, 1e-7, 6.0),
@@ -109,8 +105,6 @@ const AMPLITUDE: KnobLine = KnobLine {
 };
 
 const LOAD: KnobLine = KnobLine {
-    key: "load.force_n",
-    label: "load",
     quantity: "load_n",
     target: Some("load_target_n"),
     reach: Reach::LoadTimes(9.0, 4.0),
@@ -133,86 +127,53 @@ const LOAD: KnobLine = KnobLine {
     },
 };
 
-/// The table, in the order of [`Knob::ALL`].
-const LINES: [KnobLine; Knob::ALL.len()] = [
-    KnobLine {
-        key: "motion.slide_roll",
-        label: "S slide-to-roll",
-        quantity: "slide_roll",
-        target: Some("slide_roll_target"),
-        reach: Reach::Key,
-        steps: Steps::Equal(0.05),
-        big_step: 5,
-        typical: &[
-            (0.0, "fzg_pitch_point"),
-            (0.05, ""),
-            (0.1, "micropitting_rig"),
-            (0.25, ""),
-            (0.5, "twin_disc"),
-            (0.75, ""),
-            (1.0, ""),
-            (1.3, "fzg_point_a"),
-            (1.5, "cam_nose"),
-        ],
-        ramp: RampRate {
-            part: 0.0,
-            least: 1.0,
-        },
+const SLIDE_ROLL: KnobLine = KnobLine {
+    quantity: "slide_roll",
+    target: Some("slide_roll_target"),
+    reach: Reach::Key,
+    steps: Steps::Equal(0.05),
+    big_step: 5,
+    typical: &[
+        (0.0, "fzg_pitch_point"),
+        (0.05, ""),
+        (0.1, "micropitting_rig"),
+        (0.25, ""),
+        (0.5, "twin_disc"),
+        (0.75, ""),
+        (1.0, ""),
+        (1.3, "fzg_point_a"),
+        (1.5, "cam_nose"),
+    ],
+    ramp: RampRate {
+        part: 0.0,
+        least: 1.0,
     },
-    LOAD,
-    KnobLine {
-        key: "body_1.surface.amplitude_m",
-        label: "A₁ roughness 1",
-        quantity: "amplitude_1_m",
-        ..AMPLITUDE
+};
+
+const ENTRAINMENT: KnobLine = KnobLine {
+    quantity: "entrainment_m_s",
+    target: None,
+    reach: Reach::Times(10.0, 10.0),
+    steps: Steps::Ratio(1.1),
+    big_step: 5,
+    typical: &[
+        (0.1, ""),
+        (0.2, ""),
+        (0.5, ""),
+        (1.0, ""),
+        (2.0, ""),
+        (5.0, ""),
+        (10.0, ""),
+        (20.0, ""),
+        (50.0, ""),
+    ],
+    ramp: RampRate {
+        part: 0.5,
+        least: 0.0,
     },
-    KnobLine {
-        key: "body_2.surface.amplitude_m",
-        label: "A₂ roughness 2",
-        quantity: "amplitude_2_m",
-        ..AMPLITUDE
-    },
-    KnobLine {
-        key: "motion.entrainment_m_s",
-        label: "U entrainment",
-        quantity: "entrainment_m_s",
-        target: None,
-        reach: Reach::Times(10.0, 10.0),
-        steps: Steps::Ratio(1.1),
-        big_step: 5,
-        typical: &[
-            (0.1, ""),
-            (0.2, ""),
-            (0.5, ""),
-            (1.0, ""),
-            (2.0, ""),
-            (5.0, ""),
-            (10.0, ""),
-            (20.0, ""),
-            (50.0, ""),
-        ],
-        ramp: RampRate {
-            part: 0.5,
-            least: 0.0,
-        },
-    },
-    KnobLine {
-        key: "load.force_n_per_m",
-        ..LOAD
-    },
-];
+};
 
 impl Knob {
-    /// Every knob.
-    pub const ALL: [Self; 6] = [
-        Self::SlideRoll,
-        Self::ForceN,
-        Self::Amplitude1M,
-        Self::Amplitude2M,
-        Self::EntrainmentMS,
-        Self::ForceNPerM,
-    ];
-
     /// Amplitudes of body 1 and 2.
     pub const AMPLITUDES: [Self; 2] = [Self::Amplitude1M, Self::Amplitude2M];
 
@@ -222,12 +183,19 @@ impl Knob {
 
     /// Its line of the table.
     pub const fn line(self) -> &'static KnobLine {
-        &LINES[self as usize]
-    }
-
-    /// The path of the scene key that this knob turns.
-    pub const fn key(self) -> &'static str {
-        self.line().key
+        match self {
+            Self::SlideRoll => &SLIDE_ROLL,
+            Self::ForceN | Self::ForceNPerM => &LOAD,
+            Self::Amplitude1M => &KnobLine {
+                quantity: "amplitude_1_m",
+                ..AMPLITUDE
+            },
+            Self::Amplitude2M => &KnobLine {
+                quantity: "amplitude_2_m",
+                ..AMPLITUDE
+            },
+            Self::EntrainmentMS => &ENTRAINMENT,
+        }
     }
 
     /// That key: unit, range, meaning.
@@ -245,14 +213,9 @@ impl Knob {
         self.scene_key().is_some_and(|key| key.kind.takes(value))
     }
 
-    /// The knob with that scene key.
-    pub fn from_key(key: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|knob| knob.key() == key)
-    }
-
     /// All keys, for messages.
     pub fn keys() -> String {
-        Self::ALL.map(Self::key).join(", ")
+        Self::KEYS.join(", ")
     }
 
     /// The knob of the load.
@@ -263,9 +226,18 @@ impl Knob {
         }
     }
 
+    /// The kind of contact whose load it is; `None`: it is no load.
+    pub const fn load_of(self) -> Option<ContactKind> {
+        match self {
+            Self::ForceN => Some(ContactKind::Point),
+            Self::ForceNPerM => Some(ContactKind::Line),
+            Self::SlideRoll | Self::Amplitude1M | Self::Amplitude2M | Self::EntrainmentMS => None,
+        }
+    }
+
     /// Whether it is a load, of either kind of contact.
     pub const fn is_load(self) -> bool {
-        matches!(self, Self::ForceN | Self::ForceNPerM)
+        self.load_of().is_some()
     }
 
     /// The body (0 or 1) whose roughness it is.
@@ -293,14 +265,8 @@ impl Knob {
     pub fn put(self, scene: &mut Scene, value: f64) {
         match self {
             Self::SlideRoll => scene.motion.slide_roll = value,
-            Self::ForceN | Self::ForceNPerM => {
-                let (force_n, force_n_per_m) = match self {
-                    Self::ForceN => (Some(value), None),
-                    _ => (None, Some(value)),
-                };
-                (scene.load.force_n, scene.load.force_n_per_m) = (force_n, force_n_per_m);
-                scene.load.hertz_pressure_pa = None;
-            }
+            Self::ForceN => scene.load = Load::of_force_n(value),
+            Self::ForceNPerM => scene.load = Load::of_force_n_per_m(value),
             Self::Amplitude1M => scene.body_1.surface.set_amplitude_m(value),
             Self::Amplitude2M => scene.body_2.surface.set_amplitude_m(value),
             Self::EntrainmentMS => scene.motion.entrainment_m_s = value,
@@ -309,11 +275,8 @@ impl Knob {
 
     /// The range of its key on that side of 0 where `home` is.
     fn range(self, home: f64) -> (f64, f64) {
-        match self.scene_key().map(|key| key.kind) {
-            Some(Kind::EitherSign(least, most)) if home < 0.0 => (-most, -least),
-            Some(Kind::Number(least, most) | Kind::EitherSign(least, most)) => (least, most),
-            _ => (f64::NEG_INFINITY, f64::INFINITY),
-        }
+        let range = self.scene_key().and_then(|key| key.kind.range(home));
+        range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
     }
 
     /// The values that a hand reaches where the scene has `home`, which is a load of `p_hertz_pa` in a contact of that kind,
@@ -324,7 +287,7 @@ impl Knob {
         (kind, p_hertz_pa): (ContactKind, f64),
     ) -> ([f64; 2], Vec<(f64, &'static str)>) {
         let line = self.line();
-        let order = kind.hertz_shape().order();
+        let order = kind.order();
         let load_at = |p_pa: f64| home * (p_pa / p_hertz_pa).powi(order);
         let (least, most) = self.range(home);
         let (from, to) = match line.reach {
@@ -334,11 +297,9 @@ impl Knob {
                 (slow.min(fast), slow.max(fast))
             }
             Reach::LoadTimes(down, up) => {
-                let heaviest = keys::find("load.hertz_pressure_pa").map(|key| key.kind);
-                let most = match heaviest {
-                    Some(Kind::Number(_, most_pa)) => load_at(most_pa),
-                    _ => f64::INFINITY,
-                };
+                let pressure = keys::find("load.hertz_pressure_pa");
+                let range = pressure.and_then(|key| key.kind.range(p_hertz_pa));
+                let most = range.map_or(f64::INFINITY, |(_, most_pa)| load_at(most_pa));
                 (home / down, (home * up).min(most).max(home))
             }
             Reach::FromZero(times, unit, at_least) => {
@@ -349,7 +310,7 @@ impl Knob {
         let si = |value: f64| match line.reach {
             Reach::LoadTimes(..) => load_at(value),
             Reach::Times(..) => value * home.signum(),
-            _ => value,
+            Reach::Key | Reach::FromZero(..) => value,
         };
         let typical = line.typical.iter().map(|(value, name)| (si(*value), *name));
         let typical = typical.filter(|(value, _)| (from..=to).contains(value));
@@ -379,7 +340,7 @@ impl Knob {
             };
             let allowed = knob.scene_key().map(Key::allowed).unwrap_or_default();
             // Writing to a String cannot fail.
-            let _ = writeln!(text, "  {:<28}{allowed}; {steps}{reach}", line.key);
+            let _ = writeln!(text, "  {:<28}{allowed}; {steps}{reach}", knob.key());
         }
         text
     }
@@ -388,13 +349,12 @@ impl Knob {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::keys::Kind;
     use crate::scene::presets;
 
     #[test]
-    fn the_table_is_in_order_and_of_keys_that_scenes_have() {
-        for (place, knob) in Knob::ALL.into_iter().enumerate() {
-            assert_eq!(knob as usize, place);
-            assert_eq!(Knob::from_key(knob.key()), Some(knob));
+    fn knobs_turn_keys_that_scenes_have() {
+        for knob in Knob::ALL {
             let key = knob.scene_key().expect("a key of scenes");
             assert!(matches!(key.kind, Kind::Number(..) | Kind::EitherSign(..)));
             assert!(knob.line().typical.len() <= 9, "one a digit key");

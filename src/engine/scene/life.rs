@@ -3,61 +3,47 @@
 use serde::{Deserialize, Serialize};
 
 use super::error::SceneError;
+use crate::closed_set;
 
-/// Life model; equations and sources: [`crate::physics::life_models`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LifeModel {
-    /// Zaretsky 1987: `ln(1/Ps) = C M^e int sigma^(c e) dV`.
-    Zaretsky,
-    /// Lundberg and Palmgren 1947: greatest orthogonal shear and its depth.
-    LundbergPalmgren,
-    /// Ioannides and Harris 1985: what exceeds a limit, over z^h.
-    IoannidesHarris,
-    /// Dang Van: mesoscopic shear and hydrostatic stress; no volume effect.
-    DangVan,
-    /// Findley: critical plane; no volume effect.
-    Findley,
+closed_set! {
+    /// Life model; equations and sources: [`crate::physics::life_models`].
+    pub enum LifeModel {
+        /// Zaretsky 1987: `ln(1/Ps) = C M^e int sigma^(c e) dV`.
+        Zaretsky = "zaretsky" "Zaretsky",
+        /// Lundberg and Palmgren 1947: maximum orthogonal shear and its depth.
+        LundbergPalmgren = "lundberg_palmgren" "Lundberg-Palmgren",
+        /// Ioannides and Harris 1985: what exceeds a limit, over z^h.
+        IoannidesHarris = "ioannides_harris" "Ioannides-Harris",
+        /// Dang Van: mesoscopic shear and hydrostatic stress; no volume effect.
+        DangVan = "dang_van" "Dang Van",
+        /// Findley: critical plane; no volume effect.
+        Findley = "findley" "Findley",
+    }
+}
+
+closed_set! {
+    /// How cycles enter the life.
+    pub enum CycleBasis {
+        /// Counted by depth, each cycle by the damage it does, in loading cycles of the faster body.
+        Damage = "damage" "counted by damage",
+        /// One global n for the whole volume (the paper's form; an upper bound on damage).
+        Global = "global" "the paper's count",
+        /// Counted by depth; a cycle of effective stress counts by its peak.
+        Peaks = "peaks" "counted by peaks",
+    }
 }
 
 impl LifeModel {
-    /// Every model.
-    pub const ALL: [Self; 5] = [
-        Self::Zaretsky,
-        Self::LundbergPalmgren,
-        Self::IoannidesHarris,
-        Self::DangVan,
-        Self::Findley,
-    ];
-
-    /// Name for people.
-    pub fn name(self) -> &'static str {
+    /// Whether it integrates stress over the volume; the others look at one depth.
+    pub fn integrates(self) -> bool {
         match self {
-            Self::Zaretsky => "Zaretsky",
-            Self::LundbergPalmgren => "Lundberg-Palmgren",
-            Self::IoannidesHarris => "Ioannides-Harris",
-            Self::DangVan => "Dang Van",
-            Self::Findley => "Findley",
+            Self::Zaretsky | Self::IoannidesHarris => true,
+            Self::LundbergPalmgren | Self::DangVan | Self::Findley => false,
         }
     }
 }
 
-/// How cycles enter the life.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum CycleBasis {
-    /// Counted by depth, each cycle by the damage it does, in loading cycles of the faster body.
-    Damage,
-    /// One global n for the whole volume (the paper's form; an upper bound on damage).
-    Global,
-    /// Counted by depth; a cycle of effective stress counts by its peak.
-    Peaks,
-}
-
 impl CycleBasis {
-    /// Every basis.
-    pub const ALL: [Self; 3] = [Self::Damage, Self::Global, Self::Peaks];
-
     /// Of whose loading cycles its lives are.
     pub fn unit(self) -> &'static str {
         match self {
@@ -65,57 +51,44 @@ impl CycleBasis {
             Self::Global | Self::Peaks => "own loading cycles",
         }
     }
+}
 
-    /// Name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Damage => "counted by damage",
-            Self::Global => "the paper's count",
-            Self::Peaks => "counted by peaks",
-        }
+closed_set! {
+    /// Whose life is the scene's.
+    pub enum BodyChoice {
+        /// The body with the shorter life in own loading cycles.
+        Weaker = "weaker",
+        /// Body 1.
+        Body1 = "body_1",
+        /// Body 2.
+        Body2 = "body_2",
     }
 }
 
-/// Whose life is the scene's.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum BodyChoice {
-    /// The body with the shorter life in own loading cycles.
-    Weaker,
-    /// Body 1.
-    #[serde(rename = "body_1")]
-    Body1,
-    /// Body 2.
-    #[serde(rename = "body_2")]
-    Body2,
+closed_set! {
+    /// How far the spread over the choice of model reaches.
+    pub enum Spread {
+        /// No spread.
+        Off = "off",
+        /// Over the cycle bases, with the scene's model: costs nothing more.
+        Cycles = "cycles",
+        /// Over all models too.
+        Models = "models",
+    }
 }
 
-/// How far the spread over the choice of model reaches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Spread {
-    /// No spread.
-    Off,
-    /// Over the cycle bases, with the scene's model: costs nothing more.
-    Cycles,
-    /// Over all models too.
-    Models,
-}
-
-/// Bodies for which damage is mapped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DamageMaps {
-    /// None.
-    Off,
-    /// Body 1.
-    #[serde(rename = "body_1")]
-    Body1,
-    /// Body 2.
-    #[serde(rename = "body_2")]
-    Body2,
-    /// Both.
-    Both,
+closed_set! {
+    /// Bodies for which damage is mapped.
+    pub enum DamageMaps {
+        /// None.
+        Off = "off",
+        /// Body 1.
+        Body1 = "body_1",
+        /// Body 2.
+        Body2 = "body_2",
+        /// Both.
+        Both = "both",
+    }
 }
 
 /// `[life]`
@@ -190,9 +163,12 @@ impl Life {
 
     /// Whether damage is mapped for body 1 and body 2.
     pub fn maps(&self) -> [bool; 2] {
-        let one = matches!(self.damage_map, DamageMaps::Body1 | DamageMaps::Both);
-        let two = matches!(self.damage_map, DamageMaps::Body2 | DamageMaps::Both);
-        [one, two]
+        match self.damage_map {
+            DamageMaps::Off => [false, false],
+            DamageMaps::Body1 => [true, false],
+            DamageMaps::Body2 => [false, true],
+            DamageMaps::Both => [true, true],
+        }
     }
 }
 
@@ -201,7 +177,7 @@ pub(super) fn check_calibration(life: &Life) -> Result<(), SceneError> {
     let missing = match (life.calibration_cycles, life.calibration_pressure_pa) {
         (Some(_), None) => "calibration_pressure_pa",
         (None, Some(_)) => "calibration_cycles",
-        _ => return Ok(()),
+        (None, None) | (Some(_), Some(_)) => return Ok(()),
     };
     Err(SceneError::Missing {
         key: format!("life.{missing}"),

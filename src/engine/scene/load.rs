@@ -9,10 +9,9 @@ use super::check;
 use super::error::{SceneError, nearest};
 use super::height_map;
 use super::keys;
-use super::model::{MapEdge, Scene, Surface};
+use super::model::{Scene, Surface};
 use super::presets;
 use crate::files::read_up_to;
-use crate::physics::height_map::MapEdges;
 
 /// Longest scene file, bytes. Scenes are some kilobytes; anything longer is not one.
 const LONGEST_FILE: u64 = 1 << 20;
@@ -76,11 +75,8 @@ impl Override {
 
     /// Whether it takes its key or table out.
     fn takes_out(&self) -> bool {
-        let is_word = |key: &keys::Key| match key.kind {
-            keys::Kind::Choice(words) => words.contains(&"none"),
-            _ => false,
-        };
-        self.value.as_str() == Some("none") && !keys::find(&self.key).is_some_and(is_word)
+        let is_none = |key: &keys::Key| key.kind.is_choice("none");
+        self.value.as_str() == Some("none") && !keys::find(&self.key).is_some_and(is_none)
     }
 
     fn apply(&self, root: &mut Table) {
@@ -223,11 +219,7 @@ impl Scene {
             } = &mut body.surface
                 && map.is_none()
             {
-                let beyond = match edge {
-                    MapEdge::Periodic => MapEdges::Repeated,
-                    MapEdge::Windowed => MapEdges::Nothing,
-                };
-                let (heights, found) = height_map::read(table, folder, file, *unit_m, beyond)?;
+                let (heights, found) = height_map::read(table, folder, file, *unit_m, *edge)?;
                 if digest.as_ref().is_some_and(|digest| *digest != found) {
                     return Err(height_map::changed(table, file, &found));
                 }

@@ -31,7 +31,7 @@ pub use lubricant::{
 };
 pub use model::{
     Body, Contact, ContactKind, Event, GridAsked, Load, MapEdge, Motion, Record, Scene, Stress,
-    StressMeasure, Surface,
+    StressMeasure, Surface, SurfaceKind,
 };
 pub use numerics::{ErrorSource, Numerics, Order, OrderAsked, Time};
 pub use shape::LEAST_HARDNESS;

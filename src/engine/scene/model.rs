@@ -9,8 +9,10 @@ use super::life::Life;
 use super::lubricant::{Friction, Lubricant};
 use super::numerics::{Numerics, Time};
 use super::tooth::Tooth;
+use crate::closed_set;
 use crate::physics::height_map::HeightMap;
-use crate::physics::hertz::HertzShape;
+pub use crate::physics::height_map::MapEdge;
+pub use crate::physics::hertz::ContactKind;
 
 /// A whole scene: what the user asks for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -61,27 +63,6 @@ pub struct Scene {
     pub events: Vec<Event>,
 }
 
-/// Shape of the contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ContactKind {
-    /// Circular or elliptical contact.
-    #[default]
-    Point,
-    /// Cylinders with parallel axes: nothing varies along y; loads are per metre of length.
-    Line,
-}
-
-impl ContactKind {
-    /// How its Hertz contact follows the load.
-    pub fn hertz_shape(self) -> HertzShape {
-        match self {
-            Self::Point => HertzShape::Point,
-            Self::Line => HertzShape::Line,
-        }
-    }
-}
-
 /// `[contact]`
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -118,6 +99,18 @@ impl Default for Body {
             hardness_pa: None,
             surface: Surface::Smooth {},
         }
+    }
+}
+
+closed_set! {
+    /// What a surface's micro-geometry is: its key `kind`, the tag of [`Surface`].
+    pub enum SurfaceKind {
+        /// No roughness.
+        Smooth = "smooth",
+        /// One wave, or the product of two.
+        Sinusoid = "sinusoid",
+        /// Heights from a file.
+        HeightMap = "height_map",
     }
 }
 
@@ -173,17 +166,6 @@ pub enum Surface {
     },
 }
 
-/// What lies beyond a height map.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum MapEdge {
-    /// The map again and again.
-    #[default]
-    Periodic,
-    /// Nothing: the map stands once and is tapered to zero at its edges.
-    Windowed,
-}
-
 fn one() -> f64 {
     1.0
 }
@@ -218,6 +200,26 @@ pub struct Load {
     pub hertz_pressure_pa: Option<f64>,
 }
 
+impl Load {
+    /// That of a point contact, N.
+    pub fn of_force_n(force_n: f64) -> Self {
+        Self {
+            force_n: Some(force_n),
+            force_n_per_m: None,
+            hertz_pressure_pa: None,
+        }
+    }
+
+    /// That of a line contact per metre of length, N/m.
+    pub fn of_force_n_per_m(force_n_per_m: f64) -> Self {
+        Self {
+            force_n: None,
+            force_n_per_m: Some(force_n_per_m),
+            hertz_pressure_pa: None,
+        }
+    }
+}
+
 /// `[grid]`
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -246,26 +248,15 @@ impl Default for GridAsked {
     }
 }
 
-/// Scalar measure of stress that drives fatigue.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum StressMeasure {
-    /// Von Mises.
-    VonMises,
-    /// Maximum shear (half of Tresca).
-    MaxShear,
-    /// Octahedral shear, sqrt(2)/3 of von Mises.
-    Octahedral,
-}
-
-impl StressMeasure {
-    /// Name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::VonMises => "von Mises",
-            Self::MaxShear => "max. shear",
-            Self::Octahedral => "octahedral",
-        }
+closed_set! {
+    /// Scalar measure of stress that drives fatigue.
+    pub enum StressMeasure {
+        /// Von Mises.
+        VonMises = "von_mises" "von Mises",
+        /// Maximum shear (half of Tresca).
+        MaxShear = "max_shear" "max. shear",
+        /// Octahedral shear, sqrt(2)/3 of von Mises.
+        Octahedral = "octahedral",
     }
 }
 

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::closed_set;
+
 /// `[time]`
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -40,16 +42,16 @@ pub struct Numerics {
     pub error_estimate: ErrorSource,
 }
 
-/// Order of the discretisation that a scene asks for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum OrderAsked {
-    /// [`Order::Second`].
-    Second,
-    /// [`Order::High`].
-    High,
-    /// High as long as the mesh carries the smooth film.
-    ByMesh,
+closed_set! {
+    /// Order of the discretisation that a scene asks for.
+    pub enum OrderAsked {
+        /// [`Order::Second`].
+        Second = "second",
+        /// [`Order::High`].
+        High = "high",
+        /// High as long as the mesh carries the smooth film.
+        ByMesh = "by_mesh",
+    }
 }
 
 impl OrderAsked {
@@ -81,14 +83,14 @@ pub enum Order {
     High,
 }
 
-/// Where the estimate of the discretisation error comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ErrorSource {
-    /// A second run on half the nodes each way.
-    Companion,
-    /// No estimate.
-    None,
+closed_set! {
+    /// Where the estimate of the discretisation error comes from.
+    pub enum ErrorSource {
+        /// A second run on half the nodes each way.
+        Companion = "companion",
+        /// No estimate.
+        None = "none",
+    }
 }
 
 impl Default for Numerics {

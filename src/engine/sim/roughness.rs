@@ -13,7 +13,7 @@ use std::sync::Arc;
 use super::motion::BodyTravel;
 use super::scaling::Heading;
 use crate::math::grid::Grid;
-use crate::physics::height_map::{HeightMap, MapEdges};
+use crate::physics::height_map::{HeightMap, MapEdge};
 use crate::scene::Surface;
 
 /// One plane wave of a surface.
@@ -108,7 +108,7 @@ impl Roughness {
         let [one, two] = self.wavenumbers(body).map(f64::abs);
         let repeats = match self.reliefs[body].as_ref()? {
             Relief::Waves(_) => one == two,
-            Relief::Map(drawn) => drawn.map.beyond() == MapEdges::Repeated,
+            Relief::Map(drawn) => drawn.map.beyond() == MapEdge::Periodic,
         };
         // 2π/0 is a wave without end.
         repeats.then(|| std::f64::consts::TAU / one)
@@ -156,8 +156,8 @@ impl GriddedMap {
     /// Of the map's length, rad/a; 0: it comes once.
     fn wavenumber(&self) -> f64 {
         match self.map.beyond() {
-            MapEdges::Repeated => std::f64::consts::TAU / (self.pixel.abs() * self.map.nx() as f64),
-            MapEdges::Nothing => 0.0,
+            MapEdge::Periodic => std::f64::consts::TAU / (self.pixel.abs() * self.map.nx() as f64),
+            MapEdge::Windowed => 0.0,
         }
     }
 
@@ -172,9 +172,9 @@ impl GriddedMap {
             map.row_into(grid.y(j) / pixel_y, row);
         }
         let start = match map.beyond() {
-            MapEdges::Repeated => 0.0,
+            MapEdge::Periodic => 0.0,
             // Its downstream edge, and the reach of the interpolation, at the inlet.
-            MapEdges::Nothing => {
+            MapEdge::Windowed => {
                 start.unwrap_or(grid.x_min - (0.5 * (map.nx() - 1) as f64 + 2.0) * pixel_y)
             }
         };
@@ -189,8 +189,8 @@ impl GriddedMap {
 
     fn heights(&mut self, grid: &Grid, travel: BodyTravel, amplitude: f64, out: &mut [f64]) {
         let distance = match self.map.beyond() {
-            MapEdges::Repeated => Some(travel.travelled),
-            MapEdges::Nothing => travel.in_passage,
+            MapEdge::Periodic => Some(travel.travelled),
+            MapEdge::Windowed => travel.in_passage,
         };
         let Some(distance) = distance else {
             out.fill(0.0);
@@ -320,7 +320,7 @@ mod tests {
                 1e-7 * ((x * x + 3 * y) % 7) as f64
             })
             .collect();
-        for (beyond, travelled) in [(MapEdges::Repeated, 0.4), (MapEdges::Nothing, 0.9)] {
+        for (beyond, travelled) in [(MapEdge::Periodic, 0.4), (MapEdge::Windowed, 0.9)] {
             let map = Arc::new(HeightMap::new(n, &heights, beyond).expect("it has heights"));
             let surface = Surface::HeightMap {
                 file: String::new(),
@@ -342,7 +342,7 @@ mod tests {
                 travelled: 0.4,
                 in_passage: Some(0.9),
             };
-            let start = if beyond == MapEdges::Repeated {
+            let start = if beyond == MapEdge::Periodic {
                 0.0
             } else {
                 -0.5
@@ -363,7 +363,7 @@ mod tests {
             };
             roughness.place(&grid, 1, before, 0.02);
             let is_flat = roughness.heights[1].iter().all(|&z| z == 0.0);
-            assert_eq!(is_flat, beyond == MapEdges::Nothing);
+            assert_eq!(is_flat, beyond == MapEdge::Windowed);
         }
     }
 }

@@ -11,7 +11,7 @@
 use crate::physics::fluid::{Density, ShearedFlow, Viscosity};
 use crate::physics::hertz::Hertz;
 use crate::scene::Knob;
-use crate::scene::{ContactKind, DensityLaw, EyringFlow, Rheology, Scene, ViscosityLaw};
+use crate::scene::{ContactKind, EyringFlow, Rheology, Scene};
 use crate::solve::reynolds::Medium;
 
 /// The direction in which the oil flows. Everything dimensionless is solved with the flow along +x; a scene that flows
@@ -94,28 +94,20 @@ impl Scaling {
         if let Some(oil) = &scene.lubricant {
             let (eta, alpha) = (oil.viscosity_pa_s, oil.pressure_viscosity_per_pa);
             scaling.lambda_s_m = 12.0 * eta * rx * rx / (a.powi(3) * p);
-            scaling.viscosity = match oil.viscosity_law {
-                ViscosityLaw::Barus => Viscosity::barus(alpha, p),
-                ViscosityLaw::Roelands => Viscosity::roelands(eta, alpha, p),
-            };
-            scaling.density = match oil.density_law {
-                DensityLaw::Incompressible => Density::Incompressible,
-                DensityLaw::DowsonHigginson => Density::DowsonHigginson {
-                    p_hertz_gpa: p * 1e-9,
-                },
-                DensityLaw::VennerLubrecht => Density::VennerLubrecht {
-                    p_hertz_gpa: p * 1e-9,
-                },
-            };
-            if oil.rheology == Rheology::Eyring {
-                scaling.sliding_s_m = eta * rx / (oil.eyring_stress_pa * a * a);
-                scaling.sheared = match oil.eyring_flow {
-                    EyringFlow::Secant => ShearedFlow::Secant,
-                    EyringFlow::AlongAcross => ShearedFlow::AlongAcross {
-                        limit: oil.limiting_shear_ratio * p / oil.eyring_stress_pa,
-                        steepness: 0.5 * a * p / (rx * oil.eyring_stress_pa),
-                    },
-                };
+            scaling.viscosity = oil.viscosity_law.scaled(eta, alpha, p);
+            scaling.density = oil.density_law.scaled(p);
+            match oil.rheology {
+                Rheology::Newtonian => {}
+                Rheology::Eyring => {
+                    scaling.sliding_s_m = eta * rx / (oil.eyring_stress_pa * a * a);
+                    scaling.sheared = match oil.eyring_flow {
+                        EyringFlow::Secant => ShearedFlow::Secant,
+                        EyringFlow::AlongAcross => ShearedFlow::AlongAcross {
+                            limit: oil.limiting_shear_ratio * p / oil.eyring_stress_pa,
+                            steepness: 0.5 * a * p / (rx * oil.eyring_stress_pa),
+                        },
+                    };
+                }
             }
         }
         scaling
@@ -157,7 +149,7 @@ impl Scaling {
 
     /// a and p_h when the load is `ratio` times the scene's, over those at the scene's: Hertz.
     pub(super) fn size_ratio(&self, ratio: f64) -> f64 {
-        self.kind.hertz_shape().size_ratio(ratio)
+        self.kind.size_ratio(ratio)
     }
 
     /// Pressure, Pa.

@@ -8,7 +8,7 @@ use crate::math::grid::Grid;
 use crate::physics::fluid::ShearedFlow;
 use crate::physics::strength::{self, Strength};
 use crate::plan::Plan;
-use crate::scene::{Cavitation, CycleBasis, Scene, Surface};
+use crate::scene::{Cavitation, CycleBasis, Rheology, Scene, Surface};
 use crate::solve::march::{Flow, Shape, Solver};
 use crate::solve::newton::Tolerance;
 use crate::solve::stress::Cut;
@@ -270,8 +270,10 @@ fn rms_share(surface: &Surface) -> f64 {
 fn traction_law(scene: &Scene, scaling: &Scaling) -> TractionLaw {
     let film = scene.lubricant.as_ref().map(|oil| FilmShear {
         rate: 0.0,
-        eyring: (oil.rheology == crate::scene::Rheology::Eyring)
-            .then_some(oil.eyring_stress_pa / scaling.p_hertz_pa),
+        eyring: match oil.rheology {
+            Rheology::Newtonian => None,
+            Rheology::Eyring => Some(oil.eyring_stress_pa / scaling.p_hertz_pa),
+        },
         limit: oil.limiting_shear_ratio,
         steepness: match scaling.medium(1.0, 0.0).sheared {
             ShearedFlow::AlongAcross { steepness, .. } => steepness,

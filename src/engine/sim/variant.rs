@@ -238,12 +238,14 @@ pub(super) fn models(asked: &Life, p_hertz_pa: f64) -> Vec<LifeEquation> {
             normal: asked.normal_weight,
         },
     };
-    let mut list = vec![make(asked.model)];
-    if asked.spread == Spread::Models {
-        let others = LifeModel::ALL
-            .into_iter()
-            .filter(|model| *model != asked.model);
-        list.extend(others.map(make));
+    let own = std::iter::once(asked.model);
+    match asked.spread {
+        Spread::Off | Spread::Cycles => own.map(make).collect(),
+        Spread::Models => {
+            let others = LifeModel::ALL
+                .into_iter()
+                .filter(|model| *model != asked.model);
+            own.chain(others).map(make).collect()
+        }
     }
-    list
 }

@@ -17,7 +17,7 @@
 //! rolling 1.4 where 1.0 is counted dry). Crests steeper than steel carries press each a contact of a few nodes: there
 //! reading between the nodes wiggles by more than the gate (finer meshes end it) and the oil's own cycles, a few per
 //! cent of the peaks, are many (89 counted where n = 59; dry 70). In damage they are nothing: as many cycles of the
-//! greatest range are fewer than n by Miner's rule in all of them (`tests/life/counts.rs`, `assets/reports/counts.md`).
+//! greatest range are fewer than n by Miner's rule in all of them (`tests/life/counts.rs`).
 //! The signed shear of a shallow point counts the same crests (8.3 to 9.4 where n = 9); from one wavelength
 //! down one cycle is left. Accepted is `|mean − f δ| ≤ 1` for the pressure, and from `f δ = 10` on 5 % of
 //! `f δ` or of n (`tests/life/integrals.rs`), with at least 8 points and 16 samples a crest,

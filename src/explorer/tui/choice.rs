@@ -162,13 +162,8 @@ impl Choice {
                 }
             }
             Self::Measure => {
-                let all = [
-                    StressMeasure::VonMises,
-                    StressMeasure::MaxShear,
-                    StressMeasure::Octahedral,
-                ];
                 if let Some(stress) = &mut scene.stress {
-                    stress.measure = shifted(&all, stress.measure, by);
+                    stress.measure = shifted(&StressMeasure::ALL, stress.measure, by);
                 }
             }
             Self::Model => {

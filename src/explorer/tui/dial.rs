@@ -24,9 +24,9 @@ pub struct Dial {
     pub steps: Steps,
     /// Small steps in a big one.
     pub far: i32,
-    /// Least value.
+    /// Minimum.
     pub min: f64,
-    /// Greatest value.
+    /// Maximum.
     pub max: f64,
     /// The scene's value.
     pub home: f64,
@@ -106,10 +106,7 @@ impl Dial {
 
     /// Unit of its values.
     pub fn unit(&self, units: Units) -> Unit {
-        let kind = match self.knob {
-            Knob::ForceNPerM => ContactKind::Line,
-            _ => ContactKind::Point,
-        };
+        let kind = self.knob.load_of().unwrap_or_default();
         units.unit(self.knob.quantity().dimension, kind)
     }
 
@@ -158,7 +155,7 @@ fn dial(knob: Knob, home: f64, load: (ContactKind, f64)) -> Dial {
     let ([min, max], typical) = knob.reach(home, load);
     Dial {
         knob,
-        label: line.label,
+        label: knob.name(),
         steps: line.steps,
         far: line.big_step,
         min,

@@ -7,9 +7,9 @@ use asperity_engine::physics::estimate::{
     Count, EstimateBasis, FilmBasis, OilBasis, SurfaceWave, ln_tractions,
 };
 use asperity_engine::physics::fatigue::LifeLaw;
-use asperity_engine::physics::hertz::HertzShape;
+use asperity_engine::physics::hertz::ContactKind;
 use asperity_engine::physics::waviness::Waviness;
-use asperity_engine::scene::{CycleBasis, Rheology, Scene, Surface, ViscosityLaw};
+use asperity_engine::scene::{CycleBasis, Scene, Surface};
 
 /// Ellipses from this b/a on are taken for lines.
 const WIDE: f64 = 2.0;
@@ -22,9 +22,9 @@ pub fn basis(setup: &Setup) -> EstimateBasis {
         stress_exponent: life.stress_exponent,
         weibull_slope: life.weibull_slope,
     };
-    let (shape, hertz) = (scene.kind().hertz_shape(), scene.hertz());
+    let (shape, hertz) = (scene.kind(), scene.hertz());
     let section = if hertz.b_m >= WIDE * hertz.a_m {
-        HertzShape::Line
+        ContactKind::Line
     } else {
         shape
     };
@@ -57,8 +57,9 @@ fn oil(scene: &Scene) -> Option<OilBasis> {
     let point = scene.operating_point().map(FilmBasis::Point);
     Some(OilBasis {
         film: point.or_else(|| scene.line_point().map(FilmBasis::Line))?,
-        roelands: oil.viscosity_law == ViscosityLaw::Roelands,
-        eyring_pa: (oil.rheology == Rheology::Eyring).then_some(oil.eyring_stress_pa),
+        viscosity_law: oil.viscosity_law,
+        rheology: oil.rheology,
+        eyring_pa: oil.eyring_stress_pa,
         limit: oil.limiting_shear_ratio,
         contact_film_m: scene.friction.contact_film_m,
     })

@@ -11,7 +11,7 @@ use asperity_picture::Subject;
 
 /// The way that is shown, in passages of 4 a: few enough waves for a picture of twenty rows.
 pub(crate) const SHOWN: f64 = 0.5;
-/// Rows kept at most.
+/// Maximum number of rows.
 const ROWS: usize = 512;
 
 #[derive(Debug, Clone)]
@@ -34,7 +34,7 @@ fn middle<'a, T>(field: &'a [T], frame: &Frame) -> Option<&'a [T]> {
     field.get(start..start + frame.nx)
 }
 
-/// Values along y = 0, SI, and where bodies touch.
+/// Values along y = 0, SI, and where there is asperity contact.
 pub(crate) type CentreValues<'a> = (&'a [f32], &'a [u8]);
 
 impl Kymograph {

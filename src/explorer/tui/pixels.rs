@@ -114,6 +114,27 @@ pub struct Bitmap {
     pub rgba: Vec<u8>,
 }
 
+impl Bitmap {
+    /// Pixels along and down of so many cells.
+    pub(super) fn size(area: Rect, cell: (u16, u16)) -> (usize, usize) {
+        let side = |cells: u16, each: u16| usize::from(cells) * usize::from(each);
+        (side(area.width, cell.0), side(area.height, cell.1))
+    }
+
+    /// Every pixel by its column and row.
+    pub(super) fn of(area: Rect, cell: (u16, u16), rgba: impl Fn(usize, usize) -> [u8; 4]) -> Self {
+        let (width, height) = Self::size(area, cell);
+        let rgba = (0..width * height).flat_map(|place| rgba(place % width, place / width));
+        let rgba = rgba.collect();
+        Self {
+            area,
+            width,
+            height,
+            rgba,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

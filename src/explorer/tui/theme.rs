@@ -7,6 +7,7 @@
 mod ramp;
 
 use ratatui::style::{Color, Modifier, Style};
+use ratatui::text::{Line, Span};
 
 use asperity_picture::Ramp;
 use ramp::{map_index, nearest_index};
@@ -208,6 +209,26 @@ impl Theme {
         if self.is_ascii() { ascii } else { unicode }
     }
 
+    /// Words as they are, in ASCII where only that may be drawn.
+    pub(crate) fn words(self, text: impl AsRef<str>) -> String {
+        let text = text.as_ref();
+        if self.is_ascii() {
+            in_ascii(text)
+        } else {
+            text.to_owned()
+        }
+    }
+
+    /// Words in the look of a role, as a part of a line.
+    pub(crate) fn span(self, text: impl AsRef<str>, role: Role) -> Span<'static> {
+        Span::styled(self.words(text), self.style(role))
+    }
+
+    /// Words in the look of a role, as a line.
+    pub(crate) fn line(self, text: impl AsRef<str>, role: Role) -> Line<'static> {
+        Line::styled(self.words(text), self.style(role))
+    }
+
     /// Whether maps are drawn in half blocks of colour (else in characters of growing ink).
     pub fn paints(self) -> bool {
         !self.is_ascii()
@@ -256,10 +277,11 @@ impl Theme {
     }
 
     fn role_color(self, role: Role) -> Option<Color> {
+        let look = role_look(role);
         match self.capabilities.depth {
             ColorDepth::Mono => None,
-            ColorDepth::Basic if self.contrast == Contrast::Light => Some(basic_on_white(role)),
-            ColorDepth::Basic => Some(basic(role)),
+            ColorDepth::Basic if self.contrast == Contrast::Light => Some(look.basic_on_white),
+            ColorDepth::Basic => Some(look.basic),
             ColorDepth::True | ColorDepth::Indexed => {
                 let rgb = match (role, self.contrast) {
                     (Role::Text | Role::Strong | Role::Title, Contrast::Light) => INK,
@@ -271,8 +293,9 @@ impl Theme {
                     (Role::Title, _) | (Role::Dim | Role::Border, Contrast::High) => {
                         return Some(Color::Reset);
                     }
-                    (other, Contrast::Light) => darkened(okabe_ito(other)),
-                    (other, _) => okabe_ito(other),
+                    // The same hue for a light background.
+                    (_, Contrast::Light) => look.rgb.map(|c| (f32::from(c) * 0.55) as u8),
+                    _ => look.rgb,
                 };
                 Some(self.rgb(rgb))
             }
@@ -280,14 +303,41 @@ impl Theme {
     }
 }
 
+/// What only Unicode terminals show, in letters for those that do not.
+fn in_ascii(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '∞' => plain.push_str("inf"),
+            'λ' => plain.push_str("lambda"),
+            'ζ' => plain.push_str("zeta"),
+            'µ' | 'μ' => plain.push('u'),
+            'σ' => plain.push_str("sigma"),
+            'τ' => plain.push_str("tau"),
+            '₁' => plain.push('1'),
+            '₂' => plain.push('2'),
+            '×' => plain.push('x'),
+            '→' => plain.push_str("->"),
+            '–' | '−' => plain.push('-'),
+            '≈' => plain.push('~'),
+            '≥' => plain.push_str(">="),
+            '≤' => plain.push_str("<="),
+            '±' => plain.push_str("+-"),
+            '·' => plain.push('.'),
+            '…' => plain.push_str("..."),
+            '⏎' => plain.push_str("CR"),
+            '◂' => plain.push('<'),
+            '▸' => plain.push('>'),
+            other if other.is_ascii() => plain.push(other),
+            _ => plain.push('?'),
+        }
+    }
+    plain
+}
+
 /// Of the light contrast.
 const PAPER: [u8; 3] = [250, 250, 247];
 const INK: [u8; 3] = [24, 26, 32];
-
-/// The same hue for a light background.
-fn darkened(rgb: [u8; 3]) -> [u8; 3] {
-    rgb.map(|c| (f32::from(c) * 0.55) as u8)
-}
 
 fn weight(role: Role) -> Modifier {
     match role {
@@ -297,43 +347,35 @@ fn weight(role: Role) -> Modifier {
     }
 }
 
-fn okabe_ito(role: Role) -> [u8; 3] {
-    match role {
-        Role::Text | Role::Strong | Role::Title | Role::Dim | Role::Border => [222, 226, 235],
-        Role::Key | Role::Chosen | Role::Warn | Role::Body1 => [240, 228, 66],
-        Role::Body2 | Role::Shear => [214, 140, 184],
-        Role::Pressure | Role::Peaks => [232, 106, 30],
-        Role::Film | Role::Formula => [86, 180, 233],
-        Role::Hertz => [122, 128, 142],
-        Role::Cycles => [230, 170, 20],
-        Role::Traction | Role::Good => [20, 176, 130],
-        Role::Bad => [255, 82, 82],
-    }
+/// Colours of a role.
+struct RoleLook {
+    /// Of Okabe & Ito, made lighter for a dark background.
+    rgb: [u8; 3],
+    /// Of the sixteen.
+    basic: Color,
+    /// The dark ones of the sixteen.
+    basic_on_white: Color,
 }
 
-fn basic(role: Role) -> Color {
-    match role {
-        Role::Text | Role::Strong | Role::Title => Color::Reset,
-        Role::Dim | Role::Border | Role::Hertz => Color::DarkGray,
-        Role::Key | Role::Chosen | Role::Warn | Role::Body1 | Role::Cycles => Color::Yellow,
-        Role::Body2 | Role::Shear => Color::Magenta,
-        Role::Pressure | Role::Peaks => Color::LightRed,
-        Role::Film | Role::Formula => Color::Cyan,
-        Role::Traction | Role::Good => Color::Green,
-        Role::Bad => Color::Red,
-    }
-}
-
-/// The dark ones of the sixteen.
-fn basic_on_white(role: Role) -> Color {
-    match role {
-        Role::Text | Role::Strong | Role::Title => Color::Black,
-        Role::Dim | Role::Border | Role::Hertz => Color::DarkGray,
-        Role::Key | Role::Chosen | Role::Warn | Role::Body1 | Role::Cycles => Color::Blue,
-        Role::Body2 | Role::Shear => Color::Magenta,
-        Role::Pressure | Role::Peaks | Role::Bad => Color::Red,
-        Role::Film | Role::Formula => Color::Cyan,
-        Role::Traction | Role::Good => Color::Green,
+fn role_look(role: Role) -> RoleLook {
+    let (rgb, basic, basic_on_white) = match role {
+        Role::Text | Role::Strong | Role::Title => ([222, 226, 235], Color::Reset, Color::Black),
+        Role::Dim | Role::Border => ([222, 226, 235], Color::DarkGray, Color::DarkGray),
+        Role::Hertz => ([122, 128, 142], Color::DarkGray, Color::DarkGray),
+        Role::Key | Role::Chosen | Role::Warn | Role::Body1 => {
+            ([240, 228, 66], Color::Yellow, Color::Blue)
+        }
+        Role::Cycles => ([230, 170, 20], Color::Yellow, Color::Blue),
+        Role::Body2 | Role::Shear => ([214, 140, 184], Color::Magenta, Color::Magenta),
+        Role::Pressure | Role::Peaks => ([232, 106, 30], Color::LightRed, Color::Red),
+        Role::Film | Role::Formula => ([86, 180, 233], Color::Cyan, Color::Cyan),
+        Role::Traction | Role::Good => ([20, 176, 130], Color::Green, Color::Green),
+        Role::Bad => ([255, 82, 82], Color::Red, Color::Red),
+    };
+    RoleLook {
+        rgb,
+        basic,
+        basic_on_white,
     }
 }
 

@@ -10,7 +10,7 @@ use asperity_engine::physics::turning::Peaks;
 use asperity_engine::sim::{Frame, MaterialPoint, StressSlice};
 use asperity_session::run::Settled;
 
-/// Most samples of one crossing that are kept.
+/// Maximum number of samples of one crossing.
 const CAPACITY: usize = 4096;
 
 /// One moment of the point.

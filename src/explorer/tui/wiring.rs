@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, Sender};
 use thiserror::Error;
 
 use crate::tui::lessons::Lesson;
-use asperity_engine::plan::LeftOut;
+use asperity_engine::plan::{LeftOut, Plan};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::Frame;
 use asperity_session::Latest;
@@ -107,6 +107,21 @@ pub struct Setup {
     pub plan_text: String,
     /// What it leaves out.
     pub left_out: Vec<LeftOut>,
+}
+
+impl Setup {
+    /// A scene of that name by its plan.
+    pub fn of(scene: Arc<Scene>, name: &str, plan: &Plan) -> Self {
+        Self {
+            scene,
+            name: name.to_owned(),
+            load_n: plan.force_n,
+            half_width_m: plan.hertz.a_m,
+            p_hertz_pa: plan.hertz.p_max_pa,
+            plan_text: plan.to_string(),
+            left_out: plan.left_out.clone(),
+        }
+    }
 }
 
 /// What the program itself fills in. An errand that is `None` has no key and no row in the help.

@@ -11,10 +11,10 @@ use asperity_engine::scene::{Knob, Override, Scene, presets};
 
 /// Nodes per side unless asked for.
 pub(super) const NODES: usize = 65;
-/// Most nodes per side in a page.
-const MOST_NODES: usize = 257;
-/// Longest link or file, bytes.
-const LONGEST: usize = 256 << 10;
+/// Maximum number of nodes per side in a page.
+const MAX_NODES: usize = 257;
+/// Maximum size of a link or file, bytes.
+const MAX_BYTES: usize = 256 << 10;
 /// Keys of a link that are no keys of a scene.
 const KEYS: &str = "scene, lesson, nodes, contrast, S, load, A1, A2, U or a key of a scene";
 
@@ -37,7 +37,7 @@ pub(super) struct PageLink {
 impl PageLink {
     /// Reads the lines of a link.
     pub(super) fn read(text: &str) -> Result<Self, String> {
-        if text.len() > LONGEST {
+        if text.len() > MAX_BYTES {
             return Err(format!("a link of {} bytes is refused", text.len()));
         }
         let mut name = presets::QUICK.to_owned();
@@ -81,7 +81,7 @@ impl PageLink {
 
     /// Reads a file's text: a lesson if it has beats, else a scene.
     pub(super) fn from_file(text: &str) -> Result<Self, String> {
-        if text.len() > LONGEST {
+        if text.len() > MAX_BYTES {
             return Err(format!("a file of {} bytes is refused", text.len()));
         }
         if text.lines().any(|line| line.trim() == "[[beat]]") {
@@ -101,7 +101,7 @@ impl PageLink {
 
 /// The scene on so many nodes, or on as many more as it needs and has; and its plan.
 pub(super) fn on_nodes(scene: &Scene, nodes: usize) -> Result<(Scene, Plan), String> {
-    let own = scene.grid.nodes.min(MOST_NODES);
+    let own = scene.grid.nodes.min(MAX_NODES);
     let mut scene = scene.clone();
     // No recorder here.
     scene.record = None;
@@ -181,7 +181,7 @@ fn nodes_of(value: &str) -> Result<usize, String> {
     let nodes = value
         .parse()
         .ok()
-        .filter(|nodes: &usize| (33..=MOST_NODES).contains(nodes) && (nodes - 1).is_power_of_two());
+        .filter(|nodes: &usize| (33..=MAX_NODES).contains(nodes) && (nodes - 1).is_power_of_two());
     nodes.ok_or_else(|| format!("nodes = {} is refused: 33, 65, 129 or 257", shown(value)))
 }
 
@@ -219,8 +219,8 @@ fn shown(text: &str) -> String {
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "tests")]
 mod tests {
+    #![expect(clippy::unwrap_used, reason = "tests")]
     use super::*;
 
     fn refused(text: &str) -> String {
@@ -302,7 +302,7 @@ mod tests {
         for text in ["no = [scene", "", "[[beat]]\n", "a = 1", "\u{feff}"] {
             assert!(PageLink::from_file(text).is_err(), "{text:?}");
         }
-        assert!(PageLink::from_file(&" ".repeat(LONGEST + 1)).is_err());
+        assert!(PageLink::from_file(&" ".repeat(MAX_BYTES + 1)).is_err());
     }
 
     /// Of every scene there is: on the page's nodes, or on as many more as it needs, never more than its own.
@@ -315,7 +315,7 @@ mod tests {
             let (on_page, _) = on_nodes(&scene, NODES).unwrap();
             let nodes = on_page.grid.nodes;
             assert!(
-                (NODES..=scene.grid.nodes.clamp(NODES, MOST_NODES)).contains(&nodes),
+                (NODES..=scene.grid.nodes.clamp(NODES, MAX_NODES)).contains(&nodes),
                 "{}",
                 preset.name
             );

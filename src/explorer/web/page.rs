@@ -1,7 +1,6 @@
 //! The page's state: the explorer and the run behind it.
 
 use std::cell::RefCell;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -22,11 +21,11 @@ use crate::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
 use crate::tui::{Control, Explorer, Health, RunStatus, Setup, Shown, Wiring, view};
 use asperity_engine::math::number::sig;
 use asperity_engine::scene::{Knob, Scene};
-use asperity_session::run::{Cooperative, Ending, LoopTurn, NearEnd, Request, Watcher};
+use asperity_session::run::{Cooperative, Ending, LoopTurn, Request, RunHandle, Watcher};
 use asperity_session::sweep::{Background, Ground, SweepWorker};
 
-/// Most pixels of a picture: each is a colour computed anew.
-const MOST_PIXELS: usize = 160_000;
+/// Maximum number of pixels of a picture: each is a colour computed anew.
+const MAX_PIXELS: usize = 160_000;
 
 /// A run and its rows.
 struct PageRun {
@@ -66,14 +65,14 @@ impl WebPage {
         let (run, setup) = start(&link.scene, &link.name, nodes, Ending::OnStop)?;
         let run = Rc::new(RefCell::new(run));
         let beside = PageSweep::default();
-        let mut wiring = wiring(&run.borrow().session, setup, &beside, &files);
+        let mut wiring = wiring(&run.borrow().session.handle, setup, &beside, &files);
         wiring.lesson = link.lesson;
         let keys = Rc::new(RefCell::new(link.keys));
         let (place, sweep, kept) = (Rc::clone(&run), Rc::clone(&beside), Rc::clone(&files));
         let left = Rc::clone(&keys);
         wiring.rebuild = Some(Box::new(move |scene, name| {
             let (next, setup) = start(scene, name, nodes, Ending::OnStop)?;
-            let wiring = self::wiring(&next.session, setup, &sweep, &kept);
+            let wiring = self::wiring(&next.session.handle, setup, &sweep, &kept);
             place.replace(next);
             left.borrow_mut().clear();
             Ok(wiring)
@@ -163,7 +162,7 @@ impl WebPage {
         };
         let (mut width, mut height) = self.cell;
         let cells = usize::from(room.width) * usize::from(room.height);
-        while cells * usize::from(width) * usize::from(height) > MOST_PIXELS && width > 2 {
+        while cells * usize::from(width) * usize::from(height) > MAX_PIXELS && width > 2 {
             (width, height) = (width / 2, height / 2);
         }
         let cell = (width.max(1), height.max(1));
@@ -182,11 +181,8 @@ impl WebPage {
     /// Life, where the knobs are, and what to know before trusting it, in words.
     pub(super) fn spoken(&self) -> String {
         let app = &self.explorer.app;
-        let mut words = String::new();
-        // Writing to a string cannot fail.
-        let _ = match app.life() {
-            Some(life) => write!(
-                words,
+        let life = match app.life() {
+            Some(life) => format!(
                 "Relative life {}, band {} to {}, {}.",
                 sig(life.life_relative, 3),
                 sig(life.life_relative_low, 2),
@@ -197,18 +193,17 @@ impl WebPage {
                     "still moving"
                 }
             ),
-            None => write!(words, "No simulated life yet."),
+            None => "No simulated life yet.".to_owned(),
         };
-        let _ = write!(
-            words,
-            " S {}, load {}.",
-            sig(app.target(Knob::SlideRoll), 3),
-            sig(app.load_n(), 3)
-        );
+        let slide_roll = sig(app.target(Knob::SlideRoll), 3);
+        let mut words = format!("{life} S {slide_roll}, load {}.", sig(app.load_n(), 3));
         let cautions = app.frame().map(|frame| frame.cautions());
-        for caution in cautions.iter().flatten() {
-            let _ = write!(words, " {}.", caution.text);
-        }
+        words.extend(
+            cautions
+                .iter()
+                .flatten()
+                .map(|caution| format!(" {}.", caution.text)),
+        );
         words
     }
 
@@ -254,15 +249,7 @@ fn start(
 ) -> Result<(PageRun, Setup), String> {
     let (scene, plan) = on_nodes(scene, nodes)?;
     let scene = Arc::new(scene);
-    let setup = Setup {
-        scene: Arc::clone(&scene),
-        name: name.to_owned(),
-        load_n: plan.force_n,
-        half_width_m: plan.hertz.a_m,
-        p_hertz_pa: plan.hertz.p_max_pa,
-        plan_text: plan.to_string(),
-        left_out: plan.left_out.clone(),
-    };
+    let setup = Setup::of(Arc::clone(&scene), name, &plan);
     let rows = KeptRows::default();
     let request = Request {
         name: name.to_owned(),
@@ -276,26 +263,29 @@ fn start(
     Ok((PageRun { session, rows }, setup))
 }
 
-fn wiring(session: &NearEnd, setup: Setup, beside: &PageSweep, files: &Files) -> Wiring {
-    let status = session.status_reader();
-    let (ground, scene) = (session.settled_reader(), Arc::clone(&setup.scene));
+fn wiring(handle: &RunHandle, setup: Setup, beside: &PageSweep, files: &Files) -> Wiring {
+    let [status, settled, ground] = [(); 3].map(|()| handle.clone());
+    let scene = Arc::clone(&setup.scene);
     let place = Rc::clone(beside);
     let (saves, writes) = (Rc::clone(files), Rc::clone(files));
     let name = setup.name.replace('/', "-");
     let file = format!("{name}.toml");
     Wiring {
         setup,
-        frames: session.latest(),
-        commands: session.commands(),
+        frames: handle.latest(),
+        commands: handle.commands(),
         status: Box::new(move || RunStatus {
-            health: status().failure.map_or(Health::Running, Health::Failed),
+            health: status
+                .status()
+                .failure
+                .map_or(Health::Running, Health::Failed),
             recorder: None,
         }),
-        settled: Box::new(session.settled_reader()),
+        settled: Box::new(move || settled.settled()),
         start_sweep: Some(Box::new(move |order| {
             let ground = Ground {
                 scene: Arc::clone(&scene),
-                state: ground()?.state.clone()?,
+                state: ground.settled()?.state.clone()?,
             };
             let (sweep, worker) = Background::cooperative(ground, order);
             place.replace(worker);
@@ -324,8 +314,8 @@ fn wiring(session: &NearEnd, setup: Setup, beside: &PageSweep, files: &Files) ->
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "tests")]
 mod tests {
+    #![expect(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct};
 

@@ -1,5 +1,6 @@
 //! Every scalar of the last steps of a run, for the table that the page saves.
 
+use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use asperity_engine::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
@@ -11,46 +12,32 @@ const KEPT: usize = 5000;
 
 /// Rows of a table, filled by a run and read by the page.
 #[derive(Debug, Default, Clone)]
-pub(super) struct KeptRows(Arc<Mutex<Ring>>);
+pub(super) struct KeptRows(Arc<Mutex<RowRing>>);
 
-/// The rows one after another; once there are as many as are kept, the oldest is at `next`. All memory is taken at the
-/// first: a page's memory never shrinks.
+/// The cells of the last rows, one row after another. All memory is taken at the first: a page's memory never shrinks.
 #[derive(Debug, Default)]
-struct Ring {
-    cells: Vec<Reading>,
-    next: usize,
-}
+struct RowRing(VecDeque<Reading>);
 
-impl Ring {
+impl RowRing {
     fn push(&mut self, row: impl Iterator<Item = Reading>) {
-        if self.cells.capacity() == 0 {
-            self.cells.reserve_exact(KEPT * CATALOGUE.len());
+        let Self(cells) = self;
+        cells.reserve_exact(KEPT * CATALOGUE.len() - cells.len());
+        if cells.len() == KEPT * CATALOGUE.len() {
+            cells.drain(..CATALOGUE.len());
         }
-        let start = self.next * CATALOGUE.len();
-        self.next = (self.next + 1) % KEPT;
-        if start == self.cells.len() {
-            self.cells.extend(row);
-        } else {
-            let kept = self.cells[start..].iter_mut();
-            kept.zip(row).for_each(|(cell, reading)| *cell = reading);
-        }
+        cells.extend(row);
     }
 
     /// Rows from the oldest on.
-    fn rows(&self) -> impl Iterator<Item = &[Reading]> {
-        let is_full = self.cells.len() == KEPT * CATALOGUE.len();
-        let oldest = if is_full { self.next } else { 0 };
-        let (newer, older) = self.cells.split_at(oldest * CATALOGUE.len());
-        [older, newer]
-            .into_iter()
-            .flat_map(|part| part.chunks_exact(CATALOGUE.len()))
+    fn rows(&mut self) -> impl Iterator<Item = &[Reading]> {
+        self.0.make_contiguous().chunks_exact(CATALOGUE.len())
     }
 }
 
 impl KeptRows {
     /// The table.
     pub(super) fn csv(&self) -> String {
-        let ring = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut ring = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let mut table = csv_line(CATALOGUE.iter().map(|quantity| quantity.name));
         let mut cells = Cells::default();
         for row in ring.rows() {
@@ -90,10 +77,10 @@ mod tests {
 
     #[test]
     fn the_last_steps_are_kept_in_order_and_take_no_more_memory() {
-        let mut ring = Ring::default();
+        let mut ring = RowRing::default();
         let step = |n: usize| CATALOGUE.iter().map(move |_| Reading::Number(n as f64));
         ring.push(step(0));
-        let room = ring.cells.capacity();
+        let room = ring.0.capacity();
         assert_eq!(ring.rows().count(), 1);
         (1..KEPT).for_each(|n| ring.push(step(n)));
         for (n, last) in (KEPT..KEPT + 7).enumerate() {
@@ -102,6 +89,6 @@ mod tests {
             let kept = (n + 1..=last).map(|n| Reading::Number(n as f64));
             assert_eq!(firsts, kept.collect::<Vec<_>>());
         }
-        assert_eq!(ring.cells.capacity(), room);
+        assert_eq!(ring.0.capacity(), room);
     }
 }

@@ -1,19 +1,36 @@
 //! Runs by their keys, and the pressure of one less that of another.
 
-use super::{ComparedBy, RunBeside};
+use crate::frames::RecordedFrames;
 use asperity_engine::sim::Frame;
 
+/// What is equal where runs are shown together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ComparedBy {
+    /// Simulated time since the start of the passage.
+    Time,
+    /// The distance that body 1, and a crest on it, has gone.
+    Place,
+}
+
+/// One of the runs.
+pub struct RunBeside {
+    /// What tells it from the others.
+    pub name: String,
+    /// Its frames.
+    pub frames: RecordedFrames,
+}
+
 /// A run with the keys of its steps.
-pub(super) struct KeyedRun<'a> {
-    pub(super) run: &'a RunBeside,
-    pub(super) steps: Vec<Frame>,
-    pub(super) keys: Vec<f64>,
+pub(crate) struct KeyedRun<'a> {
+    pub(crate) run: &'a RunBeside,
+    pub(crate) steps: Vec<Frame>,
+    pub(crate) keys: Vec<f64>,
     /// Places in `steps` that have pictures.
-    pub(super) shown: Vec<usize>,
+    pub(crate) shown: Vec<usize>,
 }
 
 impl<'a> KeyedRun<'a> {
-    pub(super) fn new(run: &'a RunBeside, by: ComparedBy) -> Result<Self, String> {
+    pub(crate) fn new(run: &'a RunBeside, by: ComparedBy) -> Result<Self, String> {
         let steps: Vec<Frame> = run.frames.steps().collect();
         let keys = keys(&steps, by);
         if keys.windows(2).any(|pair| pair[0] >= pair[1]) {
@@ -33,12 +50,12 @@ impl<'a> KeyedRun<'a> {
         })
     }
 
-    pub(super) fn last_key(&self) -> f64 {
+    pub(crate) fn last_key(&self) -> f64 {
         self.shown.last().map_or(0.0, |&at| self.keys[at])
     }
 
     /// The picture nearest to a key: its place among the steps.
-    pub(super) fn nearest(&self, key: f64) -> usize {
+    pub(crate) fn nearest(&self, key: f64) -> usize {
         let after = self.shown.partition_point(|&at| self.keys[at] < key);
         let near = [after.checked_sub(1), Some(after)];
         let near = near.into_iter().flatten().filter_map(|k| self.shown.get(k));
@@ -49,7 +66,7 @@ impl<'a> KeyedRun<'a> {
     }
 
     /// How far a step is from a key, in steps.
-    pub(super) fn apart(&self, at: usize, key: f64) -> f64 {
+    pub(crate) fn apart(&self, at: usize, key: f64) -> f64 {
         let span = self.keys.last().unwrap_or(&0.0) - self.keys[0];
         let first = self.steps.first().map_or(0, |frame| frame.step);
         let steps = self.steps.last().map_or(0, |frame| frame.step) - first;
@@ -57,7 +74,7 @@ impl<'a> KeyedRun<'a> {
     }
 
     /// The moment of this run at a key, between two steps in proportion.
-    pub(super) fn moment(&self, key: f64) -> (f64, f64, f64) {
+    pub(crate) fn moment(&self, key: f64) -> (f64, f64, f64) {
         let after = self.keys.partition_point(|&own| own <= key);
         let at = after.clamp(1, self.keys.len().saturating_sub(1).max(1)) - 1;
         let one = &self.steps[at];
@@ -100,7 +117,7 @@ fn keys(steps: &[Frame], by: ComparedBy) -> Vec<f64> {
 }
 
 /// Pressure of a frame less that of another, on the other's nodes.
-pub(super) fn less(frame: &Frame, other: &Frame) -> Vec<f32> {
+pub(crate) fn less(frame: &Frame, other: &Frame) -> Vec<f32> {
     let is_alike = (frame.nx, frame.ny) == (other.nx, other.ny)
         && [frame.x_min_m, frame.dx_m, frame.y_min_m, frame.dy_m]
             == [other.x_min_m, other.dx_m, other.y_min_m, other.dy_m];

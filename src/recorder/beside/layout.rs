@@ -3,32 +3,34 @@
 use rerun::blueprint::{ContainerLike, Horizontal, Vertical};
 use rerun::external::re_sdk_types::blueprint::archetypes::PlotLegend;
 
-use super::super::centre_line::CENTRE_LINE;
-use super::super::layout::views::Views;
-use super::super::layout::{ShownViews, send_tabs, tabs::stress};
-use super::super::plot::Margin;
-use super::super::profile::PROFILE;
-use super::super::stream::Stream;
-use super::super::trace::TRACE;
-use super::super::{kymograph, maps, text};
-use super::{COMPARISON, RUNS};
+use crate::entities::centre_line::CENTRE_LINE;
+use crate::entities::profile::PROFILE;
+use crate::entities::series::{LIFE, POINT_CYCLES};
+use crate::entities::text::{COMPARISON, NOW, SCENE_TOML};
+use crate::entities::trace::TRACE;
+use crate::entities::{DIFFERENCE, kymograph, maps};
+use crate::layout::send_tabs;
+use crate::layout::tabs::stress;
+use crate::layout::views::Views;
+use crate::plot::Margin;
+use crate::shown::ShownViews;
+use crate::stream::Stream;
 use asperity_engine::observe::ObserveError;
 use asperity_engine::scene::ContactKind;
 
-/// Pressure less the first run's.
-pub(super) const DIFFERENCE: &str = "difference/pressure_GPa";
-
+/// Names of the runs, which stand before those of their entities.
+pub(crate) const RUNS: [&str; 3] = ["a", "b", "c"];
 /// The runs' colours in words.
 const COLOUR_WORDS: [&str; 3] = ["orange", "blue", "green"];
 
 /// A run, and what its views show.
-pub(super) struct ShownRun {
-    pub(super) name: &'static str,
-    pub(super) views: ShownViews,
+pub(crate) struct ShownRun {
+    pub(crate) name: &'static str,
+    pub(crate) views: ShownViews,
 }
 
 /// Sends the layout.
-pub(super) fn send(stream: &Stream, runs: &[ShownRun], names: &[&str]) -> Result<(), ObserveError> {
+pub(crate) fn send(stream: &Stream, runs: &[ShownRun], names: &[&str]) -> Result<(), ObserveError> {
     let mut layout = Layout {
         views: Views::default(),
         runs,
@@ -42,8 +44,10 @@ pub(super) fn send(stream: &Stream, runs: &[ShownRun], names: &[&str]) -> Result
         layout.stresses(),
         layout.about(),
     ];
-    let passage_s = runs.first().and_then(|run| run.views.passage_s);
-    send_tabs(stream, tabs, &layout.views.properties, (false, passage_s))
+    match runs.first() {
+        Some(first) => send_tabs(stream, tabs, &layout.views.properties, &first.views),
+        None => Ok(()),
+    }
 }
 
 struct Layout<'a> {
@@ -93,10 +97,7 @@ impl Layout<'_> {
     }
 
     fn life(&mut self) -> ContainerLike {
-        self.together(
-            "Relative life, log10 (thin: its band)",
-            "life/log10_relative",
-        )
+        self.together("Relative life, log10 (thin: its band)", LIFE)
     }
 
     /// Curves of all runs in one view.
@@ -131,9 +132,9 @@ impl Layout<'_> {
         });
         let mut lower = vec![
             self.life(),
-            self.together("Peaks in this crossing", "material_point/cycles/counted"),
+            self.together("Peaks in this crossing", POINT_CYCLES),
         ];
-        lower.extend(self.each(|views, _, name| Some(views.document(name, text::NOW))));
+        lower.extend(self.each(|views, _, name| Some(views.document(name, NOW))));
         rows([upper, lower], "Traces and life")
     }
 
@@ -166,9 +167,9 @@ impl Layout<'_> {
 
     fn about(&mut self) -> ContainerLike {
         let mut all = vec![self.views.document("What stands beside what", COMPARISON)];
-        all.extend(self.each(|views, _, name| {
-            Some(views.document(&format!("Scene: {name}"), text::SCENE_TOML))
-        }));
+        all.extend(
+            self.each(|views, _, name| Some(views.document(&format!("Scene: {name}"), SCENE_TOML))),
+        );
         Horizontal::new(all).with_name("About").into()
     }
 }

@@ -2,26 +2,22 @@
 
 use rerun::blueprint::{ContainerLike, Grid, Horizontal, TextLogView, Vertical};
 
-use super::super::centre_line::CENTRE_LINE;
-use super::super::damage;
-use super::super::interferogram::INTERFEROGRAM;
-use super::super::kymograph;
-use super::super::maps;
-use super::super::over_log;
-use super::super::plot::Margin;
-use super::super::profile::PROFILE;
-use super::super::series::{YIELDED, by_itself, entity};
-use super::super::slice;
-use super::super::text;
-use super::super::tooth;
-use super::super::trace::TRACE;
-use super::ShownViews;
 use super::views::Views;
+use crate::damage;
+use crate::entities::centre_line::CENTRE_LINE;
+use crate::entities::maps::INTERFEROGRAM;
+use crate::entities::profile::PROFILE;
+use crate::entities::series::{LIFE, POINT_CYCLES, YIELDED};
+use crate::entities::trace::TRACE;
+use crate::entities::{DAMAGE, kymograph, maps, slice, slice_over_log_depth, text, tooth};
+use crate::plot::Margin;
+use crate::series::{by_itself, entity};
+use crate::shown::ShownViews;
 use asperity_engine::scene::ContactKind;
 use asperity_picture::Subject;
 
 /// All tabs of a run.
-pub(super) fn all(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
+pub(crate) fn all(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
     let mut tabs = vec![lecture(views, shown)];
     tabs.extend(tooth(views, shown));
     tabs.extend(profile(views, shown));
@@ -153,13 +149,13 @@ fn contact(views: &mut Views, shown: &ShownViews) -> ContainerLike {
 /// The effective stress with its greatest and the followed point: of a line over the logarithm of the depth; else a row
 /// for each of the solver's depths, which crowd below the surface as on such an axis.
 /// The `name` of a run of several ends the title.
-pub(in super::super) fn stress(
-    views: &mut Views,
-    shown: &ShownViews,
-    name: &str,
-) -> Option<ContainerLike> {
+pub(crate) fn stress(views: &mut Views, shown: &ShownViews, name: &str) -> Option<ContainerLike> {
     if let Some(plot) = &shown.over_log {
-        let contents = [over_log::EFFECTIVE, over_log::MARKS, over_log::HERTZ];
+        let contents = [
+            slice_over_log_depth::EFFECTIVE,
+            slice_over_log_depth::MARKS,
+            slice_over_log_depth::HERTZ,
+        ];
         let title = format!("Stress σ_eff over log depth{name}");
         return Some(views.plot(&title, &contents, plot, Margin::Legend));
     }
@@ -170,7 +166,7 @@ pub(in super::super) fn stress(
 
 fn life_series(views: &mut Views, title: &str) -> ContainerLike {
     // The title says it.
-    views.single(title, "life/log10_relative")
+    views.single(title, LIFE)
 }
 
 fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
@@ -199,7 +195,7 @@ fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
 
 fn shear(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
     if let Some(plot) = &shown.over_log {
-        let contents = [over_log::TAU_XZ, over_log::HERTZ];
+        let contents = [slice_over_log_depth::TAU_XZ, slice_over_log_depth::HERTZ];
         let title = "Shear τxz over log depth";
         return Some(views.plot(title, &contents, plot, Margin::Legend));
     }
@@ -227,10 +223,7 @@ fn point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
             upper.extend(shear(views, shown));
         }
     }
-    let cycles = [
-        "material_point/cycles/counted",
-        "material_point/cycles/formula",
-    ];
+    let cycles = [POINT_CYCLES, "material_point/cycles/formula"];
     let (stress, place) = ("material_point/stress_GPa", "material_point/position_mm");
     let lower = vec![
         views.named("At the point, GPa", &[stress], &["p", "σ_eff", "τxz"]),
@@ -289,7 +282,7 @@ fn damage_of_both(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike
             "Damage of body {}, worst of the smooth contact = 0",
             body + 1
         );
-        let contents = [damage::DAMAGE[body]];
+        let contents = [DAMAGE[body]];
         views.plot(&title, &contents, &damage::plot_box(), Margin::Legend)
     });
     let maps: Vec<ContainerLike> = maps.collect();

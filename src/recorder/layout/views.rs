@@ -11,17 +11,17 @@ use rerun::external::re_sdk_types::blueprint::archetypes::{
 };
 use rerun::{AsComponents, Color};
 
-use super::super::colour::BACKGROUND;
-use super::super::colour::curve::word;
-use super::super::maps;
-use super::super::plot::{Margin, PlotBox};
-use super::super::series;
-use super::super::space::{SPACE, UPPER_BODY, UPPER_LABELS};
+use crate::colour::BACKGROUND;
+use crate::colour::curve::word;
+use crate::entities::maps;
+use crate::entities::space::{SPACE, UPPER_BODY, UPPER_LABELS};
+use crate::plot::{Margin, PlotBox};
+use crate::series;
 
 /// A property of a view and the path it goes to.
-pub(in super::super) struct Property {
-    pub(super) path: String,
-    pub(super) value: Box<dyn AsComponents>,
+pub(crate) struct Property {
+    pub(crate) path: String,
+    pub(crate) value: Box<dyn AsComponents>,
 }
 
 /// What lines and labels are drawn on: their colours were chosen for it, and a viewer's theme may be light or dark.
@@ -31,15 +31,15 @@ fn background() -> Background {
 
 /// Views under construction, with their properties.
 #[derive(Default)]
-pub(in super::super) struct Views {
-    pub(in super::super) properties: Vec<Property>,
+pub(crate) struct Views {
+    pub(crate) properties: Vec<Property>,
     /// The run of several whose entities views show, with a stroke behind it; empty: there is one.
-    pub(in super::super) under: String,
+    pub(crate) under: String,
 }
 
 impl Views {
     /// Notes a property of a view that has just been made.
-    pub(in super::super) fn set(
+    pub(crate) fn set(
         &mut self,
         view: &ContainerLike,
         name: &str,
@@ -54,7 +54,7 @@ impl Views {
     }
 
     /// A view of a plot: its own entity, what is drawn over it, and bounds with room for the axes.
-    pub(in super::super) fn plot(
+    pub(crate) fn plot(
         &mut self,
         name: &str,
         contents: &[&str],
@@ -65,7 +65,7 @@ impl Views {
     }
 
     /// Same of several plots, with bounds that hold all of them.
-    pub(in super::super) fn framed(
+    pub(crate) fn framed(
         &mut self,
         name: &str,
         contents: &[&str],
@@ -87,7 +87,7 @@ impl Views {
         view
     }
 
-    pub(in super::super) fn map(
+    pub(crate) fn map(
         &mut self,
         name: &str,
         entity: &str,
@@ -99,7 +99,7 @@ impl Views {
         self.plot(name, &contents, plot, Margin::Legend)
     }
 
-    pub(in super::super) fn space(&mut self, name: &str, camera: [[f64; 3]; 2]) -> ContainerLike {
+    pub(crate) fn space(&mut self, name: &str, camera: [[f64; 3]; 2]) -> ContainerLike {
         let view = Spatial3DView::new(name)
             .with_origin(format!("/{}{SPACE}", self.under))
             .into();
@@ -108,17 +108,13 @@ impl Views {
     }
 
     /// The same without the body above, which would hide the pressure.
-    pub(in super::super) fn lecture_space(
-        &mut self,
-        name: &str,
-        camera: [[f64; 3]; 2],
-    ) -> ContainerLike {
+    pub(crate) fn lecture_space(&mut self, name: &str, camera: [[f64; 3]; 2]) -> ContainerLike {
         let view = Spatial3DView::new(name)
             .with_origin(format!("/{}{SPACE}", self.under))
             .with_contents([
                 format!("+ /{}{SPACE}/**", self.under),
-                format!("- /{}{SPACE}/{UPPER_BODY}/**", self.under),
-                format!("- /{}{SPACE}/{UPPER_LABELS}/**", self.under),
+                format!("- /{}{UPPER_BODY}/**", self.under),
+                format!("- /{}{UPPER_LABELS}/**", self.under),
             ])
             .into();
         self.look(&view, camera);
@@ -136,7 +132,7 @@ impl Views {
     }
 
     /// Curves whose title says all that a legend would, and hides none.
-    pub(in super::super) fn single(&mut self, name: &str, entity: &str) -> ContainerLike {
+    pub(crate) fn single(&mut self, name: &str, entity: &str) -> ContainerLike {
         let view = self.series(name, &[entity]);
         self.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
         view
@@ -144,12 +140,7 @@ impl Views {
 
     /// Curves whose title names each with its colour: the viewer's legends know no place but a corner among the curves.
     /// The names are those of the entities' lines in their order.
-    pub(in super::super) fn named(
-        &mut self,
-        what: &str,
-        entities: &[&str],
-        names: &[&str],
-    ) -> ContainerLike {
+    pub(crate) fn named(&mut self, what: &str, entities: &[&str], names: &[&str]) -> ContainerLike {
         let colours = entities.iter().flat_map(|entity| series::colours(entity));
         let lines = names.iter().zip(colours);
         let lines: Vec<String> = lines
@@ -161,7 +152,7 @@ impl Views {
     }
 
     /// Curves with the viewer's legend at the upper left, out of the way of values up to 1 (lines of yes and no).
-    pub(in super::super) fn switches(&mut self, name: &str, entity: &str) -> ContainerLike {
+    pub(crate) fn switches(&mut self, name: &str, entity: &str) -> ContainerLike {
         let view = self.series(name, &[entity]);
         let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
         self.set(&view, "PlotLegend", legend);
@@ -170,7 +161,7 @@ impl Views {
         view
     }
 
-    pub(in super::super) fn series(&mut self, name: &str, entities: &[&str]) -> ContainerLike {
+    pub(crate) fn series(&mut self, name: &str, entities: &[&str]) -> ContainerLike {
         let contents = entities
             .iter()
             .map(|entity| format!("/{}{entity}/**", self.under));
@@ -180,7 +171,7 @@ impl Views {
             .into()
     }
 
-    pub(in super::super) fn document(&mut self, name: &str, entity: &str) -> ContainerLike {
+    pub(crate) fn document(&mut self, name: &str, entity: &str) -> ContainerLike {
         let view = TextDocumentView::new(name)
             .with_origin(format!("/{}{entity}", self.under))
             .into();

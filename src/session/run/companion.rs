@@ -28,9 +28,8 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::outcome::{End, Outcome};
-use super::request::Request;
+use super::request::{Ending, Request};
 use super::session::{RunError, Session};
-use super::shared::Ending;
 use asperity_engine::plan::{Plan, PlanError};
 use asperity_engine::scene::{ErrorSource, Order, Scene};
 use asperity_engine::sim::Summary;

@@ -1,17 +1,15 @@
 //! A run whose owner makes its turns, where there are no threads: in a page. The loop is that of [`super::Session`], so
 //! that every frame is the same.
 
-use std::ops::Deref;
-
-use super::driver::{Driver, LoopTurn, PausedWait};
-use super::near_end::{NearEnd, wired};
-use super::request::{Request, context_of};
-use asperity_engine::observe::Began;
+use super::driver::{Driver, LoopTurn, PausedWait, Start};
+use super::handle::{RunHandle, wired};
+use super::request::Request;
 use asperity_engine::sim::{SimError, Simulation};
 
 /// A run that steps when it is told to.
 pub struct Cooperative {
-    near: NearEnd,
+    /// Where it is commanded and watched.
+    pub handle: RunHandle,
     driver: Driver,
     sim: Simulation,
     has_ended: bool,
@@ -24,11 +22,11 @@ impl Cooperative {
     /// When the simulation cannot be made.
     pub fn start(request: Request) -> Result<Self, SimError> {
         let sim = Simulation::new(&request.scene, request.plan.clone(), request.threads)?;
-        let context = context_of(&request, Began::FromScene);
-        let (mut driver, near) = wired(request);
-        driver.begin_outputs(&context);
+        let (handle, end) = wired();
+        let mut driver = Driver::new(request, Start::default(), end);
+        driver.begin_outputs();
         Ok(Self {
-            near,
+            handle,
             driver,
             sim,
             has_ended: false,
@@ -51,13 +49,5 @@ impl Cooperative {
     /// The simulation, between two turns.
     pub fn sim(&self) -> &Simulation {
         &self.sim
-    }
-}
-
-impl Deref for Cooperative {
-    type Target = NearEnd;
-
-    fn deref(&self) -> &NearEnd {
-        &self.near
     }
 }

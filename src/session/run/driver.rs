@@ -1,23 +1,22 @@
 //! The loop itself: commands, script, step, frames, in this order, on the simulation's thread.
 
-mod obeying;
-mod telling;
-
 use std::collections::VecDeque;
-use std::sync::mpsc::Receiver;
-use std::sync::{Arc, Mutex};
+use std::sync::mpsc::TryRecvError;
 
-use super::Command;
 use super::checkpoint::Checkpoint;
 use super::clock::Clock;
-use super::outcome::{AppliedCommand, End, Outcome, Unconverged};
+use super::command::{AppliedCommand, Command, HandTurn};
+use super::handle::RunLink;
+use super::outcome::{End, Outcome, Unconverged};
+use super::outputs::Outputs;
+use super::request::{Ending, Request};
 use super::settled::Gather;
-use super::shared::{Ending, SharedStatus, lock};
-use super::watcher::Watcher;
-use crate::{FramePool, Latest};
-use asperity_engine::observe::{ObserveError, RunContext, RunEventKind};
+use crate::FramePool;
+use asperity_engine::observe::{Began, RunContext, RunEvent, RunEventKind, SetBy};
 use asperity_engine::scene::{Event, Scene};
-use asperity_engine::sim::{Frame, LubricationRegime, SimError, Simulation, StepError, Unsolved};
+use asperity_engine::sim::{
+    Frame, Knob, LubricationRegime, SimError, Simulation, Stage, StepError, Unsolved,
+};
 
 /// Frames that the pool starts with: one shown, one in the making, a few in the recorder's queue.
 const FRAMES: usize = 6;
@@ -51,32 +50,50 @@ pub(super) enum PausedWait {
     Never,
 }
 
-/// What another run had done before this one goes on.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Done {
-    pub(super) events_played: usize,
-    pub(super) turned_by_hand: usize,
-    pub(super) unconverged: u64,
-}
-
 /// Makes one time step: [`Simulation::step`], or in tests one that fails on purpose.
 pub(super) type MakeStep = Box<dyn FnMut(&mut Simulation) -> Result<(), StepError> + Send>;
 
+/// What a run begins with.
+pub(super) struct Start {
+    pub(super) began: Began,
+    /// Scripted events that another run had played before this one goes on.
+    pub(super) n_events_played: usize,
+    /// Knobs that had been turned by hand.
+    pub(super) n_turned_by_hand: usize,
+    /// Steps that had not converged.
+    pub(super) n_unconverged: u64,
+    /// What was done by hand in the run that is repeated, in the order of the steps made by then.
+    pub(super) turns: Vec<HandTurn>,
+    pub(super) make_step: MakeStep,
+}
+
+impl Default for Start {
+    fn default() -> Self {
+        Self {
+            began: Began::default(),
+            n_events_played: 0,
+            n_turned_by_hand: 0,
+            n_unconverged: 0,
+            turns: Vec::new(),
+            make_step: Box::new(Simulation::step),
+        }
+    }
+}
+
 /// The loop's own state, on the simulation's thread.
 pub(super) struct Driver {
+    name: String,
+    context: RunContext,
     make_step: MakeStep,
     ending: Ending,
     /// Steps of the whole run; `None`: it has no end.
     steps_planned: Option<u64>,
-    watchers: Vec<Watcher>,
+    outputs: Outputs,
     script: VecDeque<Event>,
-    /// What was done by hand in the run that is repeated, with the steps made by then.
-    turns: VecDeque<(u64, Command)>,
+    turns: VecDeque<HandTurn>,
     /// Steps made, those of the start-up too.
-    made: u64,
-    inbox: Receiver<Command>,
-    latest: Latest,
-    shared: Arc<Mutex<SharedStatus>>,
+    steps_made: u64,
+    link: RunLink,
     pool: FramePool,
     /// Of live runs: one period, once the passage repeats.
     gather: Option<Gather>,
@@ -84,7 +101,6 @@ pub(super) struct Driver {
     applied: Vec<AppliedCommand>,
     unconverged: Vec<Unconverged>,
     n_unconverged: u64,
-    output_errors: Vec<ObserveError>,
     n_events_played: usize,
     n_turned_by_hand: usize,
     /// When the first step of the passage was done.
@@ -92,82 +108,47 @@ pub(super) struct Driver {
 }
 
 impl Driver {
-    pub(super) fn new(
-        ending: Ending,
-        watchers: Vec<Watcher>,
-        events: &[Event],
-        inbox: Receiver<Command>,
-        latest: Latest,
-        shared: Arc<Mutex<SharedStatus>>,
-    ) -> Self {
-        let mut script = events.to_vec();
+    pub(super) fn new(request: Request, start: Start, link: RunLink) -> Self {
+        let context = request.context(start.began);
+        let mut script = request.scene.events.clone();
         script.sort_by(|one, two| one.at_s.total_cmp(&two.at_s));
+        // What another run has done is not done again.
+        script.drain(..start.n_events_played.min(script.len()));
         Self {
-            make_step: Box::new(Simulation::step),
-            ending,
-            steps_planned: None,
-            watchers,
+            name: request.name,
+            context,
+            make_step: start.make_step,
+            ending: request.ending,
+            steps_planned: match request.ending {
+                Ending::Passages => Some(request.plan.steps),
+                Ending::Steps(last) => Some(last),
+                Ending::OnStop => None,
+            },
+            outputs: Outputs::new(request.watchers),
             script: script.into(),
-            turns: VecDeque::new(),
-            made: 0,
-            inbox,
-            latest,
-            shared,
+            turns: start.turns.into(),
+            steps_made: 0,
+            link,
             pool: FramePool::new(FRAMES, &Frame::default()),
-            gather: (ending == Ending::OnStop).then(Gather::default),
+            gather: (request.ending == Ending::OnStop).then(Gather::default),
             pace: LoopState::Running,
             applied: Vec::new(),
             unconverged: Vec::new(),
-            n_unconverged: 0,
-            output_errors: Vec::new(),
-            n_events_played: 0,
-            n_turned_by_hand: 0,
+            n_unconverged: start.n_unconverged,
+            n_events_played: start.n_events_played,
+            n_turned_by_hand: start.n_turned_by_hand,
             passage_began: None,
         }
-    }
-
-    /// Goes on where another run ended: what it has done is not done again.
-    pub(super) fn after(mut self, done: Done) -> Self {
-        let played = done.events_played.min(self.script.len());
-        self.script.drain(..played);
-        self.n_events_played = done.events_played;
-        self.n_turned_by_hand = done.turned_by_hand;
-        self.n_unconverged = done.unconverged;
-        self
-    }
-
-    /// Says how many steps the scene's plan has, where it is the plan that ends the run.
-    pub(super) fn planned(mut self, steps: u64) -> Self {
-        self.steps_planned = match self.ending {
-            Ending::Passages => Some(steps),
-            Ending::Steps(last) => Some(last),
-            Ending::OnStop => None,
-        };
-        self
-    }
-
-    /// Steps otherwise.
-    pub(super) fn stepping_by(mut self, make_step: MakeStep) -> Self {
-        self.make_step = make_step;
-        self
-    }
-
-    /// Does again what was done by hand in another run: each command with the steps made by then.
-    pub(super) fn repeating(mut self, turns: Vec<(u64, Command)>) -> Self {
-        self.turns = turns.into();
-        self
     }
 
     /// The whole run, from opening the outputs to closing them.
     pub(super) fn run(
         mut self,
-        context: &RunContext,
-        name: &str,
         make: impl FnOnce(&Scene) -> Result<Simulation, SimError>,
     ) -> Outcome {
         let started = Clock::start();
         // Outputs first: a path that cannot be written must not cost a start-up.
-        self.begin_outputs(context);
+        self.begin_outputs();
         let mut summary = None;
         let mut steps = 0;
         let mut steps_per_s = None;
@@ -175,7 +156,7 @@ impl Driver {
         let end = if self.must_end_for_outputs() {
             End::OutputFailed
         } else {
-            match make(&context.scene) {
+            match make(&self.context.scene) {
                 Err(error) => End::NotStarted(error),
                 Ok(mut sim) => {
                     let end = sim.inside(|sim| self.drive(sim));
@@ -185,7 +166,7 @@ impl Driver {
                         .filter(|_| steps > 1)
                         .map(|began| (steps - 1) as f64 / began.elapsed_s().max(1e-9));
                     summary = (steps > 0).then(|| sim.summary());
-                    checkpoint = Some(self.checkpoint(context, &sim));
+                    checkpoint = Some(self.checkpoint(&sim));
                     end
                 }
             }
@@ -193,10 +174,10 @@ impl Driver {
         // A run without an end of its own is ended by whoever says stop.
         let stopped = matches!(end, End::Stopped) && self.ending != Ending::OnStop;
         self.tell_failure(&end);
-        let reports = self.finish_outputs();
+        let reports = self.outputs.finish();
         let wall_s = started.elapsed_s();
         if let Some(summary) = &mut summary {
-            name.clone_into(&mut summary.scene);
+            summary.scene = self.name;
             summary.wall_s = wall_s;
             summary.steps_per_s = steps_per_s;
             summary.steps = steps;
@@ -215,17 +196,17 @@ impl Driver {
             n_unconverged: self.n_unconverged,
             applied: self.applied,
             reports,
-            output_errors: self.output_errors,
+            output_errors: self.outputs.errors,
             checkpoint,
             wall_s,
             steps_per_s,
         }
     }
 
-    fn checkpoint(&self, context: &RunContext, sim: &Simulation) -> Box<Checkpoint> {
+    fn checkpoint(&self, sim: &Simulation) -> Box<Checkpoint> {
         Box::new(Checkpoint {
-            program: context.program.clone(),
-            scene: context.scene_toml.clone(),
+            program: self.context.program.clone(),
+            scene: self.context.scene_toml.clone(),
             n_events_played: self.n_events_played,
             n_unconverged: self.n_unconverged,
             n_turned_by_hand: self.n_turned_by_hand,
@@ -257,7 +238,7 @@ impl Driver {
         if let Err(error) = (self.make_step)(sim) {
             return LoopTurn::Ended(End::Stalled(error));
         }
-        self.made += 1;
+        self.steps_made += 1;
         if self.pace == LoopState::OneStep {
             self.pace = LoopState::Paused;
         }
@@ -310,7 +291,187 @@ impl Driver {
     fn forget_settled(&mut self) {
         if let Some(gather) = &mut self.gather {
             *gather = Gather::default();
-            lock(&self.shared).settled = None;
+            self.link.lock().settled = None;
         }
+    }
+
+    /// Does what was done at this place in the run that is repeated.
+    fn repeat_turns(&mut self, sim: &mut Simulation) {
+        while self
+            .turns
+            .front()
+            .is_some_and(|turn| turn.steps_made <= self.steps_made)
+        {
+            if let Some(turn) = self.turns.pop_front() {
+                self.carry_out(sim, turn.command);
+            }
+        }
+    }
+
+    /// Takes all commands that wait; while paused, waits for them where it may. Gives what the turn came to when no step
+    /// follows.
+    fn obey(&mut self, sim: &mut Simulation, waiting: PausedWait) -> Option<LoopTurn> {
+        loop {
+            let is_paused = self.pace == LoopState::Paused;
+            let command = if is_paused && waiting == PausedWait::Allowed {
+                self.link
+                    .inbox
+                    .recv()
+                    .map_err(|_| TryRecvError::Disconnected)
+            } else {
+                self.link.inbox.try_recv()
+            };
+            let command = match command {
+                Ok(command) => command,
+                Err(_) if !is_paused => return None,
+                Err(TryRecvError::Empty) => return Some(LoopTurn::Waited),
+                // All senders gone while paused: nobody can ever go on.
+                Err(TryRecvError::Disconnected) => Command::Stop,
+            };
+            match command {
+                Command::Stop => {
+                    self.log(sim, command, SetBy::Hand);
+                    return Some(LoopTurn::Ended(End::Stopped));
+                }
+                Command::Pause => {
+                    self.pace = match self.pace {
+                        LoopState::Running => LoopState::Paused,
+                        LoopState::Paused | LoopState::OneStep => LoopState::Running,
+                    };
+                    self.log(sim, command, SetBy::Hand);
+                }
+                Command::StepOnce => {
+                    // Without a pause there is nothing to single-step; the next step comes anyway.
+                    if self.pace == LoopState::Paused {
+                        self.pace = LoopState::OneStep;
+                        self.log(sim, command, SetBy::Hand);
+                        return None;
+                    }
+                }
+                other => self.carry_out(sim, other),
+            }
+        }
+    }
+
+    /// What leaves the pace alone, and what a run that is repeated does again.
+    fn carry_out(&mut self, sim: &mut Simulation, command: Command) {
+        match command {
+            Command::Set(knob, value) => self.set(sim, knob, value, SetBy::Hand),
+            Command::Follow(follow) => {
+                sim.show_point(follow);
+                self.log(sim, Command::Follow(follow), SetBy::Hand);
+            }
+            Command::Say(text) => {
+                self.log(sim, Command::Say(text.clone()), SetBy::Hand);
+                self.announce(sim, RunEventKind::Caption(text));
+            }
+            Command::Pause | Command::StepOnce | Command::Stop => {}
+        }
+    }
+
+    fn log(&mut self, sim: &Simulation, command: Command, by: SetBy) {
+        self.applied.push(AppliedCommand {
+            steps_made: self.steps_made,
+            by,
+            step: sim.passage_steps(),
+            time_s: sim.time_s(),
+            command,
+        });
+    }
+
+    fn set(&mut self, sim: &mut Simulation, knob: Knob, value: f64, by: SetBy) {
+        match sim.set(knob, value) {
+            Ok(()) => {
+                self.log(sim, Command::Set(knob, value), by);
+                self.n_turned_by_hand += usize::from(by == SetBy::Hand);
+                self.forget_settled();
+                let kind = RunEventKind::Set {
+                    key: knob.key().to_owned(),
+                    value,
+                    by,
+                    steps_made: self.steps_made,
+                };
+                self.announce(sim, kind);
+            }
+            // Not done, but told: in words that a run that is repeated says again, as it plays its script again.
+            Err(error) if by == SetBy::Hand => self.carry_out(sim, Command::Say(error.to_string())),
+            Err(error) => self.announce(sim, RunEventKind::Caption(error.to_string())),
+        }
+    }
+
+    /// Applies the scripted events whose time has come, in the order of their times.
+    fn play_script(&mut self, sim: &mut Simulation) {
+        while let Some(event) = self.script.front() {
+            // At t = 0 the passage begins; before that there is only the start-up.
+            let has_begun = event.at_s == 0.0 || sim.stage() == Stage::Passage;
+            if !has_begun || event.at_s > sim.time_s() {
+                return;
+            }
+            let Some(event) = self.script.pop_front() else {
+                return;
+            };
+            self.n_events_played += 1;
+            for (key, value) in &event.set {
+                if let Some(knob) = Knob::from_key(key) {
+                    self.set(sim, knob, *value, SetBy::Script);
+                }
+            }
+            if !event.caption.is_empty() {
+                self.announce(sim, RunEventKind::Caption(event.caption));
+            }
+        }
+    }
+
+    pub(super) fn begin_outputs(&mut self) {
+        self.outputs.begin(&self.context);
+    }
+
+    /// Gives the step to the screen, and to the outputs if it belongs to the results.
+    fn hand_out(&mut self, sim: &Simulation) {
+        let frame = self.pool.fill(|frame| sim.fill(frame));
+        if sim.stage() == Stage::Passage {
+            self.passage_began.get_or_insert_with(Clock::start);
+            self.outputs.frame(&frame);
+        }
+        if let Some(gather) = &mut self.gather
+            && let Some(settled) = gather.take(&frame, || Some(sim.save()))
+        {
+            self.link.lock().settled = Some(settled);
+        }
+        self.link.latest.put(frame);
+    }
+
+    fn announce(&mut self, sim: &Simulation, kind: RunEventKind) {
+        let event = RunEvent {
+            step: sim.passage_steps(),
+            time_s: sim.time_s(),
+            kind,
+        };
+        self.outputs.event(&event);
+    }
+
+    fn must_end_for_outputs(&self) -> bool {
+        self.ending != Ending::OnStop && !self.outputs.errors.is_empty()
+    }
+
+    fn tell_status(&self, sim: &Simulation) {
+        let mut shared = self.link.lock();
+        let status = &mut shared.status;
+        status.stage = sim.stage();
+        status.progress = sim.progress();
+        status.steps = sim.passage_steps();
+        status.n_unconverged = self.n_unconverged;
+        status.outputs.clear();
+        status.outputs.extend(self.outputs.statuses());
+    }
+
+    pub(super) fn tell_failure(&self, end: &End) {
+        let failure = match end {
+            End::Stalled(error) => error.to_string(),
+            End::NotStarted(error) => error.to_string(),
+            End::OutputFailed => "an output failed".to_owned(),
+            End::Done | End::Stopped => return,
+        };
+        self.link.lock().status.failure = Some(failure);
     }
 }

@@ -1,23 +1,9 @@
 //! How a run ended.
 
-use crate::run::{Checkpoint, Command};
-use asperity_engine::observe::{ObserveError, ObserverReport, SetBy};
+use super::checkpoint::Checkpoint;
+use super::command::AppliedCommand;
+use asperity_engine::observe::{ObserveError, ObserverReport};
 use asperity_engine::sim::{SimError, StepError, Summary, Unsolved};
-
-/// A command that took effect, with the step before which it did: scene and log replay the run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AppliedCommand {
-    /// Time steps made since the start-up when it took effect.
-    pub step: u64,
-    /// Simulated time, s.
-    pub time_s: f64,
-    /// Steps made by then, those of the start-up too.
-    pub steps_made: u64,
-    /// By whom.
-    pub by: SetBy,
-    /// The command.
-    pub command: Command,
-}
 
 /// A step that did not converge but was kept.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,18 +1,16 @@
 //! A run on a thread of its own.
 
-use std::ops::Deref;
 use std::thread::JoinHandle;
 
 use thiserror::Error;
 
-use super::Command;
 use super::checkpoint::Checkpoint;
-use super::driver::{Done, MakeStep};
-use super::near_end::{NearEnd, wired};
-use super::outcome::{AppliedCommand, Outcome};
-use super::replay::HandTurn;
-use super::request::{Request, context_of};
-use asperity_engine::observe::{Began, SetBy};
+use super::command::HandTurn;
+use super::driver::{Driver, Start};
+use super::handle::{RunHandle, wired};
+use super::outcome::Outcome;
+use super::request::Request;
+use asperity_engine::observe::Began;
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{SimError, Simulation, StepError};
 
@@ -29,21 +27,11 @@ pub enum RunError {
     Panicked(String),
 }
 
-/// What a run begins with.
-#[derive(Default)]
-struct Start {
-    /// What had been done before.
-    done: Done,
-    began: Began,
-    turns: Vec<(u64, Command)>,
-    /// What makes a step, where it is not the simulation itself.
-    make_step: Option<MakeStep>,
-}
-
 /// A running session.
 #[derive(Debug)]
 pub struct Session {
-    near: NearEnd,
+    /// Where it is commanded and watched.
+    pub handle: RunHandle,
     thread: JoinHandle<Outcome>,
 }
 
@@ -53,11 +41,7 @@ impl Session {
     /// # Errors
     /// [`RunError::NoThread`] when the system gives no thread.
     pub fn start(request: Request) -> Result<Self, RunError> {
-        let threads = request.threads;
-        let plan = request.plan.clone();
-        Self::spawn(request, Start::default(), move |scene| {
-            Simulation::new(scene, plan, threads)
-        })
+        Self::repeat(request, Vec::new())
     }
 
     /// Same, going on from a saved state. A state that does not fit ends the run before it starts
@@ -68,14 +52,11 @@ impl Session {
     pub fn resume(request: Request, checkpoint: Checkpoint) -> Result<Self, RunError> {
         let threads = request.threads;
         let plan = request.plan.clone();
-        let done = Done {
-            events_played: checkpoint.n_events_played,
-            turned_by_hand: checkpoint.n_turned_by_hand,
-            unconverged: checkpoint.n_unconverged,
-        };
         let start = Start {
-            done,
             began: Began::FromState,
+            n_events_played: checkpoint.n_events_played,
+            n_turned_by_hand: checkpoint.n_turned_by_hand,
+            n_unconverged: checkpoint.n_unconverged,
             ..Start::default()
         };
         Self::spawn(request, start, move |scene| {
@@ -100,33 +81,18 @@ impl Session {
         make_step: impl FnMut(&mut Simulation) -> Result<(), StepError> + Send + 'static,
     ) -> Result<Self, RunError> {
         let start = Start {
-            make_step: Some(Box::new(make_step)),
+            make_step: Box::new(make_step),
             ..Start::default()
         };
         Self::spawn(request, start, make)
     }
 
-    /// Same as [`Session::start`], turning the knobs as they were turned in another run of the same scene.
+    /// Same as [`Session::start`], doing what was done by hand in another run of the same scene at the same steps: every
+    /// frame is the same, bit for bit. What the scene's script did the scene does itself.
     ///
     /// # Errors
     /// [`RunError::NoThread`] when the system gives no thread.
     pub fn repeat(request: Request, turns: Vec<HandTurn>) -> Result<Self, RunError> {
-        let turn = |turn: HandTurn| (turn.steps_made, Command::Set(turn.knob, turn.value));
-        Self::redo(request, turns.into_iter().map(turn).collect())
-    }
-
-    /// Same from a session's own log ([`Outcome::applied`]): what was done by hand is done again at the same
-    /// steps, what the scene's script did the scene does itself. Every frame is the same, bit for bit.
-    ///
-    /// # Errors
-    /// [`RunError::NoThread`] when the system gives no thread.
-    pub fn replay(request: Request, log: &[AppliedCommand]) -> Result<Self, RunError> {
-        let by_hand = log.iter().filter(|entry| entry.by == SetBy::Hand);
-        let commands = by_hand.map(|entry| (entry.steps_made, entry.command.clone()));
-        Self::redo(request, commands.collect())
-    }
-
-    fn redo(request: Request, turns: Vec<(u64, Command)>) -> Result<Self, RunError> {
         let threads = request.threads;
         let plan = request.plan.clone();
         let start = Start {
@@ -143,18 +109,13 @@ impl Session {
         start: Start,
         make: impl FnOnce(&Scene) -> Result<Simulation, SimError> + Send + 'static,
     ) -> Result<Self, RunError> {
-        let context = context_of(&request, start.began);
-        let name = request.name.clone();
-        let (driver, near) = wired(request);
-        let mut driver = driver.after(start.done).repeating(start.turns);
-        if let Some(make_step) = start.make_step {
-            driver = driver.stepping_by(make_step);
-        }
+        let (handle, end) = wired();
+        let driver = Driver::new(request, start, end);
         let thread = std::thread::Builder::new()
             .name("sim".to_owned())
-            .spawn(move || driver.run(&context, &name, make))
+            .spawn(move || driver.run(make))
             .map_err(|error| RunError::NoThread(error.to_string()))?;
-        Ok(Self { near, thread })
+        Ok(Self { handle, thread })
     }
 
     /// Whether the run has ended, so that `join` returns at once.
@@ -174,13 +135,5 @@ impl Session {
                 .or_else(|| cause.downcast_ref::<&str>().map(|text| (*text).to_owned()));
             RunError::Panicked(text.unwrap_or_else(|| "no message".to_owned()))
         })
-    }
-}
-
-impl Deref for Session {
-    type Target = NearEnd;
-
-    fn deref(&self) -> &NearEnd {
-        &self.near
     }
 }

@@ -37,7 +37,7 @@ pub(super) struct Gather {
     seen: usize,
     began_s: f64,
     every: usize,
-    done: Option<()>,
+    is_done: bool,
     /// Passages at which the life had settled without a period.
     waits_since: Option<f64>,
     /// Whether one frame was given in place of a period.
@@ -55,11 +55,11 @@ impl Gather {
         let repeat = metrics.repeat.filter(|repeat| repeat.repeats);
         let counted = metrics.life.is_none_or(|life| life.settled);
         let holds = frame.stage == Stage::Passage && metrics.converged && counted;
-        let Some(repeat) = repeat.filter(|_| holds && self.done.is_none()) else {
-            return match self.done {
-                None => self.wait(frame, holds, save),
-                Some(()) => None,
-            };
+        if self.is_done {
+            return None;
+        }
+        let Some(repeat) = repeat.filter(|_| holds) else {
+            return self.wait(frame, holds, save);
         };
         if repeat.rhythm != Rhythm::Orbit {
             return Some(self.whole(vec![copy(frame)], 0.0, save()));
@@ -114,7 +114,7 @@ impl Gather {
         period_s: f64,
         state: Option<State>,
     ) -> Arc<Settled> {
-        self.done = Some(());
+        self.is_done = true;
         Arc::new(Settled {
             frames,
             period_s,

@@ -7,6 +7,7 @@
 
 use toml::Value;
 
+use super::reader::{TableReader, number, shown, whole_within, whole_words};
 use asperity_engine::scene::{Knob, SceneError, keys};
 
 /// Most cases of one sweep.
@@ -68,25 +69,6 @@ impl VariedKey {
     }
 }
 
-/// A number, also where TOML has it as a whole one.
-pub(super) fn number(value: &Value) -> Option<f64> {
-    match value {
-        Value::Float(number) => Some(*number),
-        Value::Integer(whole) => Some(*whole as f64),
-        _ => None,
-    }
-}
-
-/// A value in few words.
-pub(super) fn shown(value: &Value) -> String {
-    match value {
-        Value::Float(number) => keys::short(*number),
-        Value::Table(_) => "a table".to_owned(),
-        Value::Array(_) => "a list".to_owned(),
-        other => other.to_string(),
-    }
-}
-
 fn read_list(key: &str, list: &[Value]) -> Result<Vec<Value>, SceneError> {
     let full = format!("vary.{key}");
     if list.is_empty() || list.len() > MOST_CASES {
@@ -107,50 +89,36 @@ fn read_list(key: &str, list: &[Value]) -> Result<Vec<Value>, SceneError> {
     }
 }
 
+/// How the values of a range lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Spacing {
+    Linear,
+    Log,
+}
+
+const SPACINGS: [(&str, Spacing); 2] = [("linear", Spacing::Linear), ("log", Spacing::Log)];
+
 fn read_range(key: &str, table: &toml::Table) -> Result<Vec<Value>, SceneError> {
-    const FIELDS: [&str; 4] = ["from", "to", "n", "spacing"];
-    let full = |name: &str| format!("vary.{key}.{name}");
-    if let Some(name) = table.keys().find(|name| !FIELDS.contains(&name.as_str())) {
-        return Err(SceneError::unknown_among(&full(name), &FIELDS));
+    let mut range = TableReader::new(format!("vary.{key}"), table);
+    let finite = |value: &Value| number(value).filter(|v| v.is_finite());
+    let from = range.required("from", "a finite number", finite);
+    let to = range.required("to", "a finite number", finite);
+    let counts = 2..=MOST_CASES as i64;
+    let n = range.required("n", whole_words(&counts), |n| whole_within(n, &counts));
+    let spacing = range.choice("spacing", &SPACINGS);
+    range.finish()?;
+    let share = |k: usize| k as f64 / (n - 1) as f64;
+    let at = |k: usize| match spacing {
+        Spacing::Linear => from + (to - from) * share(k),
+        Spacing::Log => from * (to / from).powf(share(k)),
+    };
+    if spacing == Spacing::Log && from * to <= 0.0 {
+        return Err(SceneError::value(
+            range.full("spacing"),
+            "\"log\"",
+            "from and to of one sign, neither 0",
+        ));
     }
-    let missing = |name: &str, allowed: &str| SceneError::Missing {
-        key: full(name),
-        allowed: allowed.to_owned(),
-    };
-    let end = |name: &str| -> Result<f64, SceneError> {
-        let value = table.get(name).ok_or_else(|| missing(name, "a number"))?;
-        number(value)
-            .filter(|v| v.is_finite())
-            .ok_or_else(|| SceneError::value(full(name), shown(value), "a finite number"))
-    };
-    let (from, to) = (end("from")?, end("to")?);
-    let count = format!("a whole number, 2 to {MOST_CASES}");
-    let n = table.get("n").ok_or_else(|| missing("n", &count))?;
-    let n = n
-        .as_integer()
-        .filter(|n| (2..=MOST_CASES as i64).contains(n))
-        .ok_or_else(|| SceneError::value(full("n"), shown(n), count))? as usize;
-    let linear = |k: usize| from + (to - from) * (k as f64 / (n - 1) as f64);
-    let at: Box<dyn Fn(usize) -> f64> = match table.get("spacing").map(|v| (v.as_str(), v)) {
-        None | Some((Some("linear"), _)) => Box::new(linear),
-        Some((Some("log"), _)) if from * to > 0.0 => {
-            Box::new(|k| from * (to / from).powf(k as f64 / (n - 1) as f64))
-        }
-        Some((Some("log"), _)) => {
-            return Err(SceneError::value(
-                full("spacing"),
-                "\"log\"",
-                "from and to of one sign, neither 0",
-            ));
-        }
-        Some((_, other)) => {
-            return Err(SceneError::value(
-                full("spacing"),
-                shown(other),
-                "\"linear\" or \"log\"",
-            ));
-        }
-    };
     // A step of S = 0.1 is meant as 0.1: fifteen digits take the rounding of the formula off again.
     let neat = |v: f64| format!("{v:.14e}").parse().unwrap_or(v);
     let mut values: Vec<f64> = (0..n).map(|k| neat(at(k))).collect();
@@ -159,7 +127,10 @@ fn read_range(key: &str, table: &toml::Table) -> Result<Vec<Value>, SceneError> 
         keys::find(key).map(|k| k.kind),
         Some(keys::Kind::Integer(..) | keys::Kind::IntegerOf(_))
     ) {
-        return values.into_iter().map(|v| whole(&full("n"), v)).collect();
+        return values
+            .into_iter()
+            .map(|v| whole(&range.full("n"), v))
+            .collect();
     }
     Ok(values.into_iter().map(Value::Float).collect())
 }
@@ -178,26 +149,31 @@ fn whole(full: &str, value: f64) -> Result<Value, SceneError> {
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 
     fn axis(text: &str) -> Result<VariedKey, SceneError> {
-        let table: toml::Table = format!("v = {text}").parse().unwrap();
+        let table: toml::Table = format!("v = {text}").parse().expect("TOML");
         VariedKey::read("motion.slide_roll", &table["v"])
     }
 
     #[test]
     fn ranges_are_even_and_end_where_they_say() {
         let values = axis("{ from = 0, to = 2, n = 21 }")
-            .unwrap()
+            .expect("read")
             .numbers()
-            .unwrap();
+            .expect("numbers");
         assert_eq!(values.len(), 21);
         assert_eq!((values[0], values[3], values[20]), (0.0, 0.3, 2.0));
         let values = axis("{ from = 0.01, to = 10, n = 4, spacing = \"log\" }");
-        assert_eq!(values.unwrap().numbers().unwrap(), [0.01, 0.1, 1.0, 10.0]);
-        assert_eq!(axis("[1, 2.5]").unwrap().numbers().unwrap(), [1.0, 2.5]);
+        assert_eq!(
+            values.expect("read").numbers().expect("numbers"),
+            [0.01, 0.1, 1.0, 10.0]
+        );
+        assert_eq!(
+            axis("[1, 2.5]").expect("read").numbers().expect("numbers"),
+            [1.0, 2.5]
+        );
     }
 
     #[test]
@@ -224,7 +200,7 @@ mod tests {
             ),
             ("{ from = 0, to = 1, m = 3 }", "only the keys from"),
         ] {
-            let error = axis(text).unwrap_err().to_string();
+            let error = axis(text).expect_err("refused").to_string();
             assert!(error.contains(said), "{text}: {error}");
         }
     }

@@ -12,10 +12,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::case::{self, CaseEnd, CaseRecord, CaseStart, RunningCase};
-use super::run::case_of;
+use super::case::{Case, CaseEnd, CaseRecord, CaseStart, Neighbour, RunningCase, Until};
 use super::spec::ChainKeys;
-use asperity_engine::plan::Plan;
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::State;
 
@@ -77,9 +75,12 @@ pub struct Ground {
 
 impl Ground {
     /// Where a case may start from; `None` where the scene is none.
-    fn start(&self) -> Option<(Scene, State)> {
-        let (scene, _) = case_of((*self.scene).clone(), CHAIN).ok()?;
-        Some((scene, self.state.clone()))
+    fn start(&self) -> Option<Neighbour> {
+        let case = Case::new(0, (*self.scene).clone(), CHAIN).ok()?;
+        Some(Neighbour {
+            scene: case.scene,
+            state: self.state.clone(),
+        })
     }
 }
 
@@ -167,7 +168,7 @@ impl Background {
             found: sender.clone(),
             last_side: None,
             before: None,
-            case: None,
+            under_way: None,
         };
         let workers = (0..workers).map(worker).collect();
         let this = Self {
@@ -229,14 +230,13 @@ pub struct SweepWorker {
     done: Arc<AtomicUsize>,
     found: Sender<Found>,
     /// The run itself, or the case before.
-    before: Option<(Scene, State)>,
-    case: Option<ValueCase>,
+    before: Option<Neighbour>,
+    under_way: Option<ValueCase>,
 }
 
 /// The case of one value.
 struct ValueCase {
-    scene: Scene,
-    plan: Plan,
+    case: Case,
     running: RunningCase,
     /// Whether it is tried a second time, from Hertz.
     is_second: bool,
@@ -248,15 +248,14 @@ impl SweepWorker {
         if self.stop.load(Ordering::Relaxed) {
             return false;
         }
-        match self.case.take() {
+        match self.under_way.take() {
             None => self.begin_next(),
-            Some(mut case) => {
-                if case.running.step() {
-                    self.case = Some(case);
-                    return true;
+            Some(mut value) => {
+                if !value.running.step() {
+                    return self.ended(value);
                 }
-                let (record, state) = case.running.end();
-                self.ended((case.scene, case.plan), &record, state, case.is_second)
+                self.under_way = Some(value);
+                true
             }
         }
     }
@@ -271,49 +270,39 @@ impl SweepWorker {
         }
         let mut scene = self.work.scene.clone();
         self.work.along.put(&mut scene, value);
-        if let Ok(case) = case_of(scene, CHAIN) {
-            return self.begin(case, false);
+        match Case::new(0, scene, CHAIN) {
+            Ok(case) => self.begin(case, false),
+            // What is no scene has no life; the next value may be one.
+            Err(_) => drop(self.done.fetch_add(1, Ordering::Relaxed)),
         }
-        // What is no scene has no life; the next value may be one.
-        self.done.fetch_add(1, Ordering::Relaxed);
         true
     }
 
-    fn begin(&mut self, (scene, plan): (Scene, Plan), is_second: bool) -> bool {
+    fn begin(&mut self, case: Case, is_second: bool) {
         let before = self.before.as_ref().filter(|_| !is_second);
-        let from = (case::neighbour(before, &scene), case::Until::Settled(MOST));
-        match RunningCase::begin(0, &scene, &plan, from, 1) {
-            Ok(running) => {
-                self.case = Some(ValueCase {
-                    scene,
-                    plan,
-                    running,
-                    is_second,
-                });
-                true
-            }
-            Err(record) => self.ended((scene, plan), &record, None, is_second),
-        }
+        self.under_way = Some(ValueCase {
+            running: RunningCase::begin(&case, before, Until::Settled(MOST), 1),
+            case,
+            is_second,
+        });
     }
 
-    fn ended(
-        &mut self,
-        (scene, plan): (Scene, Plan),
-        record: &CaseRecord,
-        state: Option<State>,
-        is_second: bool,
-    ) -> bool {
+    fn ended(&mut self, value: ValueCase) -> bool {
+        let (record, state) = value.running.end();
         // A live run's grid need not be that of a scene with its knobs turned.
-        if record.end == CaseEnd::Stalled && self.before.is_some() && !is_second {
-            return self.begin((scene, plan), true);
+        if record.end == CaseEnd::Stalled && self.before.is_some() && !value.is_second {
+            self.begin(value.case, true);
+            return true;
         }
+        let scene = value.case.scene;
         let converged = record.end == CaseEnd::Converged;
-        if converged && self.found.send(found(&scene, record)).is_err() {
+        if converged && self.found.send(found(&scene, &record)).is_err() {
             return false;
         }
         // A case in trouble is no start; the run itself is one.
         let own = || self.work.ground.start();
-        self.before = state.map(|state| (scene, state)).or_else(own);
+        let next = state.map(|state| Neighbour { scene, state });
+        self.before = next.or_else(own);
         self.done.fetch_add(1, Ordering::Relaxed);
         true
     }

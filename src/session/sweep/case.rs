@@ -5,9 +5,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::spec::ChainKeys;
+use super::error::SweepError;
+use super::spec::{ChainKeys, Sweep};
+use super::window::window;
 use crate::run::Clock;
-use asperity_engine::plan::{OtherFilms, Plan};
+use asperity_engine::plan::{OtherFilms, Plan, PlanError, TimeDependence};
 use asperity_engine::scene::{CycleBasis, Scene, Surface};
 use asperity_engine::sim::{SimError, Simulation, State, Summary};
 
@@ -21,8 +23,8 @@ pub enum CaseStart {
     Warm,
 }
 
-/// How a case ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+/// How a case ended, from good to bad.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CaseEnd {
     /// Every step converged.
@@ -58,22 +60,107 @@ pub struct CaseRecord {
     pub start_up_not_converged: u64,
 }
 
-/// Whether the loop goes on.
-pub(super) trait Watch {
-    /// Called after each step with how much of the case is done, 0 to 1; false: stop.
-    fn step(&mut self, done: f64) -> bool;
+/// A scene as a case of a sweep, with its plan.
+pub(super) struct Case {
+    pub(super) index: usize,
+    pub(super) scene: Scene,
+    pub(super) plan: Plan,
 }
 
-/// A case that was run: its record, and the state that the next one may start from. `None`: stopped.
-pub(super) type Ran = Option<(CaseRecord, Option<State>)>;
+/// The end of a case that the next one may start from.
+#[derive(Clone)]
+pub(super) struct Neighbour {
+    pub(super) scene: Scene,
+    pub(super) state: State,
+}
 
-/// How long a case is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Length {
-    /// What the sweep says, the last passage as long as its window.
-    Windowed,
-    /// What the scene says.
-    Asked,
+impl Case {
+    /// With the passages that the sweep gives it, the last one as long as its window; with those of the scene where material
+    /// points must cross.
+    pub(super) fn new(index: usize, mut scene: Scene, chain: ChainKeys) -> Result<Self, PlanError> {
+        let points_cross = scene.life.as_ref().is_some_and(|life| {
+            let counts_points = match life.cycles {
+                CycleBasis::Damage | CycleBasis::Peaks => true,
+                CycleBasis::Global => false,
+            };
+            counts_points || life.maps() != [false; 2]
+        });
+        let usual = || (!points_cross).then(|| scene.time.passages.min(1.0));
+        let Some(passages) = chain.passages.or_else(usual) else {
+            return Self::as_asked(index, scene);
+        };
+        scene.time.passages = passages;
+        let mut case = Self::as_asked(index, scene)?;
+        fit_window(&mut case.plan);
+        Ok(case)
+    }
+
+    /// As long as the scene says.
+    pub(super) fn as_asked(index: usize, scene: Scene) -> Result<Self, PlanError> {
+        let plan = Plan::new(&scene)?;
+        Ok(Self { index, scene, plan })
+    }
+
+    /// Runs it from the end of its neighbour, where it may follow it, else from Hertz; gives its record, and the state that the
+    /// next one may start from. `go_on` is called after each step with how much of it is done, 0 to 1; `None`: it said stop.
+    pub(super) fn run(
+        &self,
+        before: Option<&Neighbour>,
+        threads: usize,
+        mut go_on: impl FnMut(f64) -> bool,
+    ) -> Option<(CaseRecord, Option<State>)> {
+        let mut running = RunningCase::begin(self, before, Until::Passages, threads);
+        while running.step() {
+            if !go_on(running.progress()) {
+                return None;
+            }
+        }
+        Some(running.end())
+    }
+
+    /// Smooth films by regression: central and minimum, m; `None`: dry.
+    pub(super) fn regressions_m(&self) -> Option<[f64; 2]> {
+        let film = self.plan.film.as_ref()?;
+        Some(match film.others {
+            OtherFilms::HamrockDowson {
+                central_m,
+                minimum_m,
+            } => [central_m, minimum_m],
+            OtherFilms::DowsonHigginson { minimum_m } => [film.central_m, minimum_m],
+        })
+    }
+}
+
+impl Sweep {
+    /// A case with its plan.
+    ///
+    /// # Errors
+    /// [`SweepError`] when it is no scene or cannot be planned.
+    pub(super) fn case(&self, index: usize) -> Result<Case, SweepError> {
+        let case = Case::new(index, self.scene(index)?, self.chain);
+        case.map_err(|source| self.not_planned(index, source))
+    }
+
+    pub(super) fn not_planned(&self, index: usize, source: PlanError) -> SweepError {
+        SweepError::Plan {
+            index,
+            at: self.at(index),
+            source,
+        }
+    }
+}
+
+/// Makes the last passage of a plan as long as its window.
+fn fit_window(plan: &mut Plan) {
+    if plan.time_dependence != TimeDependence::Transient {
+        return;
+    }
+    let run_in = (plan.length_a - plan.passage_a).max(0.0);
+    let asked = plan.length_a - run_in;
+    let averaged = window(plan, asked);
+    (plan.passage_a, plan.length_a) = (averaged, run_in + averaged);
+    let step_a = 4.0 / plan.steps_per_passage as f64;
+    plan.steps = (plan.length_a / step_a).ceil() as u64;
 }
 
 /// When a case has ended.
@@ -99,23 +186,6 @@ fn has_settled(sim: &Simulation) -> bool {
     sim.metrics().life.is_none_or(|life| life.settled)
 }
 
-/// The scene of a case with the passages that the sweep gives it.
-pub(super) fn shortened(mut scene: Scene, chain: ChainKeys) -> (Scene, Length) {
-    let points_cross = scene.life.as_ref().is_some_and(|life| {
-        let counted = match life.cycles {
-            CycleBasis::Damage | CycleBasis::Peaks => true,
-            CycleBasis::Global => false,
-        };
-        counted || life.maps() != [false; 2]
-    });
-    match chain.passages {
-        Some(passages) => scene.time.passages = passages,
-        None if !points_cross => scene.time.passages = scene.time.passages.min(1.0),
-        None => return (scene, Length::Asked),
-    }
-    (scene, Length::Windowed)
-}
-
 /// Whether a case may start from the end of another: they differ in S and amplitudes alone, and no height
 /// map has to be brought back to its place.
 pub(super) fn may_follow(before: &Scene, scene: &Scene) -> bool {
@@ -130,53 +200,10 @@ pub(super) fn may_follow(before: &Scene, scene: &Scene) -> bool {
     stripped(before) == stripped(scene) && !scene.surfaces().iter().any(drawn)
 }
 
-/// Runs a case after another one: from its end, where it may follow it, else from Hertz.
-pub(super) fn after(
-    before: Option<&(Scene, State)>,
-    index: usize,
-    scene: &Scene,
-    plan: &Plan,
-    until: Until,
-    threads: usize,
-    watch: &mut dyn Watch,
-) -> Ran {
-    let from = (neighbour(before, scene), until);
-    run(index, scene, plan, from, threads, watch)
-}
-
-/// The end of the case before, where another may start from it.
-pub(super) fn neighbour<'a>(
-    before: Option<&'a (Scene, State)>,
-    scene: &Scene,
-) -> Option<&'a State> {
-    let (before, state) = before?;
-    may_follow(before, scene).then_some(state)
-}
-
-/// Runs a case, from the end of its neighbour where there is one.
-pub(super) fn run(
-    index: usize,
-    scene: &Scene,
-    plan: &Plan,
-    from: (Option<&State>, Until),
-    threads: usize,
-    watch: &mut dyn Watch,
-) -> Ran {
-    let mut case = match RunningCase::begin(index, scene, plan, from, threads) {
-        Ok(case) => case,
-        Err(record) => return Some((*record, None)),
-    };
-    while case.step() {
-        if !watch.step(case.sim.progress()) {
-            return None;
-        }
-    }
-    Some(case.end())
-}
-
 /// A case under way, for who makes its steps.
 pub(super) struct RunningCase {
-    sim: Simulation,
+    /// `None`: it could not be made.
+    sim: Option<Simulation>,
     until: Until,
     /// Steps of the plan.
     steps: u64,
@@ -186,109 +213,95 @@ pub(super) struct RunningCase {
 }
 
 impl RunningCase {
-    /// Makes it; the record of one that cannot be made says why not.
+    /// Makes it, from the end of its neighbour where it may follow it. One that cannot be made makes no step.
     pub(super) fn begin(
-        index: usize,
-        scene: &Scene,
-        plan: &Plan,
-        (neighbour, until): (Option<&State>, Until),
+        case: &Case,
+        before: Option<&Neighbour>,
+        until: Until,
         threads: usize,
-    ) -> Result<Self, Box<CaseRecord>> {
+    ) -> Self {
         let started = Clock::start();
-        let mut record = blank(index, plan);
-        match begin(scene, plan, neighbour, threads) {
-            Ok((sim, began)) => {
-                record.began = began;
-                Ok(Self {
-                    sim,
-                    until,
-                    steps: plan.steps,
-                    record,
-                    failure: None,
-                    started,
-                })
-            }
-            Err(error) => {
-                record.end = CaseEnd::Stalled;
-                record.failure = Some(error.to_string());
-                Err(Box::new(record))
-            }
+        let before = before.filter(|before| may_follow(&before.scene, &case.scene));
+        let made = made(case, before, threads);
+        Self {
+            until,
+            steps: case.plan.steps,
+            record: CaseRecord {
+                index: case.index,
+                began: match (&made, before) {
+                    (Ok(_), Some(_)) => CaseStart::Warm,
+                    (Ok(_), None) | (Err(_), _) => CaseStart::Cold,
+                },
+                end: CaseEnd::Stalled,
+                failure: None,
+                seconds: 0.0,
+                summary: Summary::default(),
+                lambda_ratio: None,
+                h_regression_m: case.regressions_m().map(|[central, _]| central),
+                h_min_regression_m: case.regressions_m().map(|[_, minimum]| minimum),
+                start_up_not_converged: 0,
+            },
+            failure: made.as_ref().err().map(ToString::to_string),
+            sim: made.ok(),
+            started,
         }
     }
 
     /// One step; false: there is none to make any more.
     pub(super) fn step(&mut self) -> bool {
-        if self.failure.is_some() || self.until.is_met(&self.sim, self.steps) {
+        let Some(sim) = &mut self.sim else {
+            return false;
+        };
+        if self.failure.is_some() || self.until.is_met(sim, self.steps) {
             return false;
         }
-        if let Err(error) = self.sim.step() {
+        if let Err(error) = sim.step() {
             self.failure = Some(error.to_string());
             return false;
         }
-        if self.sim.passage_steps() == 0 && !self.sim.metrics().converged {
+        if sim.passage_steps() == 0 && !sim.metrics().converged {
             self.record.start_up_not_converged += 1;
         }
         true
     }
 
-    /// What it leaves.
+    /// How much is done, 0 to 1.
+    fn progress(&self) -> f64 {
+        self.sim.as_ref().map_or(1.0, Simulation::progress)
+    }
+
+    /// What it leaves, and the state that the next one may start from: a case in trouble is no start.
     pub(super) fn end(self) -> (CaseRecord, Option<State>) {
-        let (sim, mut record) = (self.sim, self.record);
+        let mut record = self.record;
+        record.failure = self.failure;
+        let Some(sim) = self.sim else {
+            return (record, None);
+        };
         if sim.passage_steps() > 0 {
             record.summary = sim.summary();
             record.lambda_ratio = sim.metrics().lambda_ratio;
         }
         let unconverged = record.start_up_not_converged + record.summary.steps_not_converged;
-        let is_awaited = self.failure.is_none() && matches!(self.until, Until::Settled(_));
-        if is_awaited && !has_settled(&sim) {
-            record.failure = Some("the average of the life has not settled".to_owned());
-        }
-        record.end = match (&self.failure, unconverged) {
+        record.end = match (&record.failure, self.until) {
             (Some(_), _) => CaseEnd::Stalled,
-            (None, 0) if record.failure.is_none() => CaseEnd::Converged,
-            (None, _) => CaseEnd::NotConverged,
+            (None, Until::Settled(_)) if !has_settled(&sim) => {
+                record.failure = Some("the average of the life has not settled".to_owned());
+                CaseEnd::NotConverged
+            }
+            (None, _) if unconverged > 0 => CaseEnd::NotConverged,
+            (None, Until::Settled(_) | Until::Passages) => CaseEnd::Converged,
         };
-        record.summary.converged = record.end == CaseEnd::Converged;
-        // A neighbour in trouble is no start: the next case begins cold.
-        let state = (record.end == CaseEnd::Converged).then(|| sim.save());
-        record.failure = self.failure.or(record.failure);
+        let has_converged = record.end == CaseEnd::Converged;
+        record.summary.converged = has_converged;
         record.seconds = self.started.elapsed_s();
-        (record, state)
+        (record, has_converged.then(|| sim.save()))
     }
 }
 
-fn begin(
-    scene: &Scene,
-    plan: &Plan,
-    neighbour: Option<&State>,
-    threads: usize,
-) -> Result<(Simulation, CaseStart), SimError> {
-    let mut sim = Simulation::new(scene, plan.clone(), threads)?;
-    let Some(neighbour) = neighbour else {
-        return Ok((sim, CaseStart::Cold));
-    };
-    sim.follow(neighbour)?;
-    Ok((sim, CaseStart::Warm))
-}
-
-fn blank(index: usize, plan: &Plan) -> CaseRecord {
-    let film = plan.film.as_ref();
-    CaseRecord {
-        index,
-        began: CaseStart::Cold,
-        end: CaseEnd::Converged,
-        failure: None,
-        seconds: 0.0,
-        summary: Summary::default(),
-        lambda_ratio: None,
-        h_regression_m: film.map(|film| match film.others {
-            OtherFilms::HamrockDowson { central_m, .. } => central_m,
-            OtherFilms::DowsonHigginson { .. } => film.central_m,
-        }),
-        h_min_regression_m: film.map(|film| match film.others {
-            OtherFilms::HamrockDowson { minimum_m, .. }
-            | OtherFilms::DowsonHigginson { minimum_m } => minimum_m,
-        }),
-        start_up_not_converged: 0,
+fn made(case: &Case, before: Option<&Neighbour>, threads: usize) -> Result<Simulation, SimError> {
+    let mut sim = Simulation::new(&case.scene, case.plan.clone(), threads)?;
+    if let Some(before) = before {
+        sim.follow(&before.state)?;
     }
+    Ok(sim)
 }

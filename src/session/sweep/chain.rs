@@ -90,7 +90,6 @@ fn cut(line: Range<usize>, longest: usize, chains: &mut Vec<Range<usize>>) {
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
     use std::path::Path;
@@ -101,7 +100,7 @@ mod tests {
             "test",
             Path::new(""),
         )
-        .unwrap()
+        .expect("read")
     }
 
     #[test]

@@ -6,14 +6,12 @@
 
 use std::sync::atomic::Ordering;
 
-use super::case::{self, CaseRecord, Watch};
+use super::case::{Case, CaseRecord};
 use super::error::SweepError;
 use super::run::Progress;
 use super::spec::Sweep;
 use super::table::Rows;
 use crate::run::share_out;
-use asperity_engine::plan::Plan;
-use asperity_engine::scene::Scene;
 
 /// A sweep against its cases run cold.
 #[derive(Debug, Clone)]
@@ -42,15 +40,6 @@ impl ColdComparison {
     }
 }
 
-/// Goes on until told to stop.
-struct UntilStopped<'a>(&'a Progress);
-
-impl Watch for UntilStopped<'_> {
-    fn step(&mut self, _done: f64) -> bool {
-        !self.0.stop.load(Ordering::Relaxed)
-    }
-}
-
 fn transforms(records: &[CaseRecord]) -> u64 {
     records
         .iter()
@@ -68,24 +57,18 @@ pub fn against_cold(
     threads: usize,
     progress: &Progress,
 ) -> Result<Option<ColdComparison>, SweepError> {
-    let mut cases = Vec::new();
-    for index in 0..sweep.len() {
-        let scene = sweep.scene(index)?;
-        let plan = Plan::new(&scene).map_err(|source| SweepError::Plan {
-            index,
-            at: sweep.at(index),
-            source,
-        })?;
-        cases.push((index, scene, plan));
-    }
+    let case = |index: usize| {
+        let case = Case::as_asked(index, sweep.scene(index)?);
+        case.map_err(|source| sweep.not_planned(index, source))
+    };
+    let cases = (0..sweep.len()).map(case).collect::<Result<Vec<_>, _>>()?;
     progress.all.store(cases.len(), Ordering::Relaxed);
     progress.found.store(0, Ordering::Relaxed);
     progress.done.store(0, Ordering::Relaxed);
-    let run = |(index, scene, plan): &(usize, Scene, Plan)| {
-        let cold = (None, case::Until::Passages);
-        let ran = case::run(*index, scene, plan, cold, 1, &mut UntilStopped(progress))?;
+    let run = |case: &Case| {
+        let (record, _) = case.run(None, 1, |_| !progress.stop.load(Ordering::Relaxed))?;
         progress.done.fetch_add(1, Ordering::Relaxed);
-        Some(ran.0)
+        Some(record)
     };
     let ran = share_out(&cases, threads.min(cases.len()), run, &mut |_, _| {});
     let Some(cold) = ran.into_iter().collect::<Option<Vec<CaseRecord>>>() else {
@@ -103,10 +86,9 @@ pub fn against_cold(
         ratios: pairs
             .map(|(one, two)| {
                 let (warm, cold) = (&one.summary, &two.summary);
-                let films = (Some(warm.h_central_m), Some(cold.h_central_m));
                 [
                     ratio(warm.life_relative, cold.life_relative),
-                    ratio(films.0, films.1),
+                    warm.h_central_m / cold.h_central_m,
                 ]
             })
             .collect(),

@@ -19,27 +19,17 @@ mod mark;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::case::CaseRecord;
+use super::case::{CaseRecord, Neighbour};
 use super::error::SweepError;
 use super::spec::Sweep;
 use crate::run::Checkpoint;
 use asperity_engine::files::{fnv, publish, sync_file};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{State, Stats};
-use mark::{Company, FolderMark, Lock, MARK, TEMPORARY};
+pub use mark::Existing;
+use mark::{Entry, FolderMark, Lock, MARK, TEMPORARY};
 
 const MAGIC: &str = "asperity case 1 ";
-
-/// What to do about a folder that holds cases already.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Existing {
-    /// Refuse it.
-    Refuse,
-    /// Go on where they end.
-    Resume,
-    /// Throw them away.
-    Replace,
-}
 
 /// A sweep's folder.
 #[derive(Debug, Clone)]
@@ -68,13 +58,13 @@ impl Folder {
             );
             return Err(SweepError::folder(root, reason));
         }
-        let company = Company::enter(root, existing)?;
+        let entry = Entry::new(root, existing)?;
         let mut folder = Self {
             root: root.to_owned(),
             mark,
             lock: Lock::none(),
         };
-        if company.is_alone() {
+        if entry.is_alone {
             mark::tidy(root);
         }
         if existing == Existing::Replace {
@@ -90,7 +80,7 @@ impl Folder {
         if let Ok(scene) = sweep.base_scene() {
             folder.write_own(!is_same, "base.toml", &scene.to_toml())?;
         }
-        folder.lock = company.share();
+        folder.lock = entry.share();
         Ok(folder)
     }
 
@@ -182,18 +172,18 @@ impl Folder {
     /// [`SweepError::Folder`] when the disk says no.
     pub(super) fn write_state(
         &self,
-        (chain, case): (usize, usize),
-        scene: &Scene,
-        state: &State,
+        chain: usize,
+        case: usize,
+        end: &Neighbour,
     ) -> Result<(), SweepError> {
         let checkpoint = Checkpoint {
             program: crate::program::PROGRAM.to_owned(),
-            scene: scene.to_toml(),
+            scene: end.scene.to_toml(),
             n_events_played: 0,
             n_unconverged: 0,
             n_turned_by_hand: 0,
             stats: Stats::default(),
-            sim: state.clone(),
+            sim: end.state.clone(),
         };
         self.write_by(&self.state_path(chain, case), |temporary| {
             std::fs::File::create(temporary)
@@ -203,8 +193,8 @@ impl Folder {
     }
 
     /// The state after a case; `None`: there is none, or none that fits.
-    pub(super) fn read_state(&self, at: (usize, usize), scene: &Scene) -> Option<State> {
-        let saved = Checkpoint::read_for(&self.state_path(at.0, at.1), scene);
+    pub(super) fn read_state(&self, chain: usize, case: usize, scene: &Scene) -> Option<State> {
+        let saved = Checkpoint::read_for(&self.state_path(chain, case), scene);
         saved.ok().map(|saved| saved.sim)
     }
 

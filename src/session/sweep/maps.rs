@@ -13,14 +13,16 @@ use asperity_engine::scene::presets::BUILTIN;
 const LONGEST_MAP: u64 = 64 << 20;
 
 /// The height maps that a sweep names outside of its scene.
-pub(super) fn files(set_text: &[String], axes: &[VariedKey]) -> Vec<PathBuf> {
-    let set_values = set_text.iter().filter_map(|text| text.split_once('='));
-    let set_files = set_values
+pub(super) fn files(set: &[(String, Value)], axes: &[VariedKey]) -> Vec<PathBuf> {
+    let set = set
+        .iter()
+        .map(|(key, value)| (key, std::slice::from_ref(value)));
+    let varied = axes.iter().map(|axis| (&axis.key, axis.values.as_slice()));
+    set.chain(varied)
         .filter(|(key, _)| is_map(key))
-        .map(|(_, file)| file.trim_matches('"'));
-    let varied = axes.iter().filter(|axis| is_map(&axis.key));
-    let varied_files = varied.flat_map(|axis| axis.values.iter().filter_map(Value::as_str));
-    set_files.chain(varied_files).map(PathBuf::from).collect()
+        .flat_map(|(_, files)| files.iter().filter_map(Value::as_str))
+        .map(PathBuf::from)
+        .collect()
 }
 
 /// Whether a key names a height map.

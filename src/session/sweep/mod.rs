@@ -14,18 +14,16 @@ mod background;
 mod case;
 mod chain;
 mod cold;
-#[cfg(feature = "parquet")]
-mod columns;
 mod error;
 mod folder;
 mod maps;
 mod path;
-mod path_keys;
 #[cfg(not(target_arch = "wasm32"))]
 mod plots;
 mod points;
 mod presets;
 mod read;
+mod reader;
 mod ride;
 mod run;
 mod spec;
@@ -37,8 +35,6 @@ pub use background::{Along, Background, CurveOrder, CurvePoint, Found, Ground, S
 pub use case::{CaseEnd, CaseRecord, CaseStart};
 pub use chain::Shard;
 pub use cold::{ColdComparison, against_cold};
-#[cfg(feature = "parquet")]
-pub use columns::parquet_table;
 pub use error::SweepError;
 pub use folder::{Existing, Folder};
 pub use path::PathPoint;

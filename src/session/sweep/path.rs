@@ -25,11 +25,14 @@ use std::f64::consts::PI;
 
 use toml::{Table, Value};
 
-use super::axis::{VariedKey, shown};
-use super::path_keys::Keys;
+use super::axis::VariedKey;
+use super::reader::{TableReader, both};
 use asperity_engine::physics::gear::{GearPair, GearTeeth, LoadSharing};
 use asperity_engine::physics::race_and_cam::{BallRace, FlatFollower};
-use asperity_engine::scene::{ContactKind, Scene, SceneError};
+use asperity_engine::scene::{ContactKind, Scene, SceneError, Tooth};
+
+/// Fewest and most points of a path.
+const POINTS: std::ops::RangeInclusive<i64> = 2..=10_000;
 
 /// Where a case is on its path: columns of the table with their values.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,10 +53,33 @@ pub(super) fn column(points: &[PathPoint], name: &str) -> Option<Vec<f64>> {
     Some(points.iter().map(|point| point.values[at].1).collect())
 }
 
+/// What a path goes along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum PathKind {
+    Gear,
+    Race,
+    Cam,
+}
+
+impl PathKind {
+    pub(super) const ALL: [Self; 3] = [Self::Gear, Self::Race, Self::Cam];
+
+    /// Name of its table.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Gear => "gear",
+            Self::Race => "race",
+            Self::Cam => "cam",
+        }
+    }
+}
+
 /// The axes and points of a path.
 pub(super) struct Path {
     pub(super) axes: Vec<VariedKey>,
     pub(super) points: Vec<PathPoint>,
+    /// The tooth of a gear.
+    pub(super) tooth: Option<Tooth>,
 }
 
 /// A point under way: where it is, and what the scene gets.
@@ -63,61 +89,56 @@ struct PathStop {
 }
 
 /// Reads `[gear]`, `[race]` or `[cam]` for a base scene.
-pub(super) fn read(kind: &str, table: &Table, scene: &Scene) -> Result<Path, SceneError> {
-    let wanted = if kind == "race" {
-        ContactKind::Point
-    } else {
-        ContactKind::Line
+pub(super) fn read(kind: PathKind, table: &Table, scene: &Scene) -> Result<Path, SceneError> {
+    let (is, must) = match (kind, scene.kind()) {
+        (PathKind::Race, ContactKind::Point)
+        | (PathKind::Gear | PathKind::Cam, ContactKind::Line) => ("", ""),
+        (PathKind::Race, ContactKind::Line) => ("\"line\"", "\"point\" on a [race]"),
+        (PathKind::Gear | PathKind::Cam, ContactKind::Point) => {
+            ("\"point\"", "\"line\" on a [gear] or [cam]")
+        }
     };
-    if scene.kind() != wanted {
-        let (is, must) = match wanted {
-            ContactKind::Point => ("\"line\"", "\"point\" on a [race]"),
-            ContactKind::Line => ("\"point\"", "\"line\" on a [gear] or [cam]"),
-        };
+    if !is.is_empty() {
         return Err(SceneError::value("contact.kind", is, must));
     }
-    let keys = Keys { kind, table };
+    let mut keys = TableReader::new(kind.name(), table);
+    let mut tooth = None;
     let stops = match kind {
-        "gear" => gear(&keys)?,
-        "race" => race(&keys)?,
-        _ => cam(&keys)?,
+        PathKind::Gear => {
+            let n = keys.whole("points", POINTS, 17);
+            let pair = gear_pair(&mut keys)?;
+            tooth = Some(Tooth::of(&pair.gears, pair.speed_rad_s));
+            gear(&pair, n)?
+        }
+        PathKind::Race => race(&mut keys)?,
+        PathKind::Cam => cam(&mut keys)?,
     };
-    let names: Vec<&str> = stops[0].keys.iter().map(|(name, _)| *name).collect();
-    let axes = names.iter().enumerate().map(|(k, name)| VariedKey {
-        key: (*name).to_owned(),
-        values: stops
-            .iter()
-            .map(|stop| Value::Float(stop.keys[k].1))
-            .collect(),
-    });
+    let axis = |k: usize, name: &str| VariedKey {
+        key: name.to_owned(),
+        values: stops.iter().map(|s| Value::Float(s.keys[k].1)).collect(),
+    };
+    let names = stops[0].keys.iter().enumerate();
     Ok(Path {
-        axes: axes.collect(),
+        axes: names.map(|(k, (name, _))| axis(k, name)).collect(),
         points: stops
             .iter()
             .map(|stop| PathPoint {
                 values: stop.values.clone(),
             })
             .collect(),
+        tooth,
     })
 }
 
 const RPM: f64 = PI / 30.0;
 
-fn gear(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
-    keys.known(&[
-        "teeth",
-        "module_m",
-        "pitch_radii_m",
-        "pressure_angle_deg",
-        "centre_distance_m",
-        "tip_diameters_m",
-        "face_width_m",
-        "torque_n_m",
-        "speed_rpm",
-        "load_sharing",
-        "points",
-    ])?;
-    let pair = gear_pair(keys)?;
+const LOAD_SHARING: [(&str, LoadSharing); 3] = [
+    ("half", LoadSharing::Half),
+    ("trapezoid", LoadSharing::Trapezoid),
+    ("whole", LoadSharing::Whole),
+];
+
+fn gear(pair: &GearPair, n: usize) -> Result<Vec<PathStop>, SceneError> {
     let Some(line) = pair.gears.line_of_action() else {
         return Err(SceneError::value(
             "gear.tip_diameters_m",
@@ -125,7 +146,6 @@ fn gear(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
             GearTeeth::MESHING,
         ));
     };
-    let n = keys.points(17)?;
     let even = |k: usize| line.a + (line.e - line.a) * k as f64 / (n - 1) as f64;
     let mut places: Vec<f64> = (0..n).map(even).collect();
     places[n - 1] = line.e;
@@ -162,23 +182,31 @@ fn gear(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
         .collect())
 }
 
-pub(super) fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
-    let teeth = keys.pair("teeth", (5.0, 1000.0), "teeth, pinion first")?;
-    let whole = teeth.filter(|pair| pair.iter().all(|z| z.fract() == 0.0));
-    let Some(teeth) = whole.map(|pair| pair.map(|z| z as u32)) else {
-        let written = keys
-            .table
-            .get("teeth")
-            .map_or_else(|| "nothing".to_owned(), shown);
-        let allowed = "two whole numbers, 5 to 1000, pinion first";
-        return Err(SceneError::value("gear.teeth", written, allowed));
-    };
-    let radii = keys.pair("pitch_radii_m", (1e-4, 10.0), "m, pinion first")?;
-    let module_m = match (keys.maybe("module_m", (1e-5, 0.1), "m")?, radii) {
+fn gear_pair(keys: &mut TableReader) -> Result<GearPair, SceneError> {
+    let range = 5.0..=1000.0;
+    let allowed = "two whole numbers, 5 to 1000, pinion first";
+    let teeth = keys.required("teeth", allowed, |value| {
+        let teeth = both(value, &range)?;
+        let are_whole = teeth.iter().all(|z| z.fract() == 0.0);
+        are_whole.then(|| teeth.map(|z| z as u32))
+    });
+    let radii = keys.pair("pitch_radii_m", 1e-4..=10.0, "m, pinion first");
+    let module_m = keys.optional_number("module_m", 1e-5..=0.1, "m");
+    let centre = keys.optional_number("centre_distance_m", 1e-4..=10.0, "m");
+    let tips = keys.pair("tip_diameters_m", 1e-4..=20.0, "m, pinion first");
+    let load_sharing = keys.choice("load_sharing", &LOAD_SHARING);
+    let angle = keys.optional_number("pressure_angle_deg", 10.0..=35.0, "degrees");
+    let face_width_m = keys.number("face_width_m", 1e-4..=10.0, "m");
+    let torque_n_m = keys.number("torque_n_m", 1e-3..=1e7, "N m");
+    let speed_rad_s = RPM * keys.number("speed_rpm", 0.01..=1e6, "1/min");
+    keys.finish()?;
+    let module_m = match (module_m, radii) {
         (Some(module_m), None) => module_m,
         (None, Some([one, two])) => {
-            let [m_1, m_2] = [one, two].map(|r| 2.0 * r);
-            let modules = [m_1 / f64::from(teeth[0]), m_2 / f64::from(teeth[1])];
+            let modules = [
+                2.0 * one / f64::from(teeth[0]),
+                2.0 * two / f64::from(teeth[1]),
+            ];
             if (modules[0] / modules[1] - 1.0).abs() > 1e-6 {
                 return Err(SceneError::value(
                     "gear.pitch_radii_m",
@@ -188,7 +216,7 @@ pub(super) fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
             }
             modules[0]
         }
-        _ => {
+        (None, None) | (Some(_), Some(_)) => {
             return Err(SceneError::Missing {
                 key: "gear.module_m".to_owned(),
                 allowed: "exactly one of module_m (1e-5 to 0.1 m) and pitch_radii_m".to_owned(),
@@ -196,22 +224,6 @@ pub(super) fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
         }
     };
     let standard = teeth.map(|z| module_m * f64::from(z));
-    let centre = keys.maybe("centre_distance_m", (1e-4, 10.0), "m")?;
-    let tips = keys.pair("tip_diameters_m", (1e-4, 20.0), "m, pinion first")?;
-    let load_sharing = match keys.table.get("load_sharing").map(|v| (v.as_str(), v)) {
-        None | Some((Some("half"), _)) => LoadSharing::Half,
-        Some((Some("trapezoid"), _)) => LoadSharing::Trapezoid,
-        Some((Some("whole"), _)) => LoadSharing::Whole,
-        Some((_, other)) => {
-            let allowed = "\"half\", \"trapezoid\" or \"whole\"";
-            return Err(SceneError::value(
-                "gear.load_sharing",
-                shown(other),
-                allowed,
-            ));
-        }
-    };
-    let angle = keys.maybe("pressure_angle_deg", (10.0, 35.0), "degrees")?;
     Ok(GearPair {
         gears: GearTeeth {
             teeth,
@@ -220,32 +232,25 @@ pub(super) fn gear_pair(keys: &Keys) -> Result<GearPair, SceneError> {
             centre_distance_m: centre.unwrap_or(0.5 * (standard[0] + standard[1])),
             tip_diameters_m: tips.unwrap_or(standard.map(|d| d + 2.0 * module_m)),
         },
-        face_width_m: keys.number("face_width_m", (1e-4, 10.0), "m")?,
-        torque_n_m: keys.number("torque_n_m", (1e-3, 1e7), "N m")?,
-        speed_rad_s: RPM * keys.number("speed_rpm", (0.01, 1e6), "1/min")?,
+        face_width_m,
+        torque_n_m,
+        speed_rad_s,
         load_sharing,
     })
 }
 
-fn race(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
-    keys.known(&[
-        "ball_diameter_m",
-        "pitch_diameter_m",
-        "conformity",
-        "balls",
-        "radial_load_n",
-        "speed_rpm",
-        "half_zone_deg",
-        "points",
-    ])?;
+fn race(keys: &mut TableReader) -> Result<Vec<PathStop>, SceneError> {
     let race = BallRace {
-        ball_diameter_m: keys.number("ball_diameter_m", (1e-4, 1.0), "m")?,
-        pitch_diameter_m: keys.number("pitch_diameter_m", (1e-3, 10.0), "m")?,
-        conformity: keys.number("conformity", (0.501, 0.6), "")?,
-        balls: keys.number("balls", (3.0, 500.0), "")? as u32,
-        radial_load_n: keys.number("radial_load_n", (1e-3, 1e8), "N")?,
-        speed_rad_s: RPM * keys.number("speed_rpm", (0.01, 1e6), "1/min")?,
+        ball_diameter_m: keys.number("ball_diameter_m", 1e-4..=1.0, "m"),
+        pitch_diameter_m: keys.number("pitch_diameter_m", 1e-3..=10.0, "m"),
+        conformity: keys.number("conformity", 0.501..=0.6, ""),
+        balls: keys.number("balls", 3.0..=500.0, "") as u32,
+        radial_load_n: keys.number("radial_load_n", 1e-3..=1e8, "N"),
+        speed_rad_s: RPM * keys.number("speed_rpm", 0.01..=1e6, "1/min"),
     };
+    let zone = keys.optional_number("half_zone_deg", 1.0..=85.0, "degrees");
+    let n = keys.whole("points", POINTS, 9);
+    keys.finish()?;
     if race.pitch_diameter_m <= race.ball_diameter_m {
         return Err(SceneError::value(
             "race.pitch_diameter_m",
@@ -253,9 +258,7 @@ fn race(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
             "more than the ball's diameter",
         ));
     }
-    let zone = keys.maybe("half_zone_deg", (1.0, 85.0), "degrees")?;
     let zone = zone.unwrap_or(75.0);
-    let n = keys.points(9)?;
     let [rx, ry] = race.radii_m();
     Ok((0..n)
         .map(|k| {
@@ -273,35 +276,24 @@ fn race(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
         .collect())
 }
 
-fn cam(keys: &Keys) -> Result<Vec<PathStop>, SceneError> {
-    keys.known(&[
-        "base_radius_m",
-        "lift_m",
-        "half_angle_deg",
-        "speed_rpm",
-        "preload_n",
-        "stiffness_n_per_m",
-        "mass_kg",
-        "width_m",
-        "angles_deg",
-        "points",
-    ])?;
-    let end = keys.number("half_angle_deg", (10.0, 170.0), "degrees")?;
+fn cam(keys: &mut TableReader) -> Result<Vec<PathStop>, SceneError> {
+    let end = keys.number("half_angle_deg", 10.0..=170.0, "degrees");
     let cam = FlatFollower {
-        base_radius_m: keys.number("base_radius_m", (1e-3, 1.0), "m")?,
-        lift_m: keys.number("lift_m", (1e-5, 0.5), "m")?,
+        base_radius_m: keys.number("base_radius_m", 1e-3..=1.0, "m"),
+        lift_m: keys.number("lift_m", 1e-5..=0.5, "m"),
         half_angle_rad: end.to_radians(),
-        speed_rad_s: RPM * keys.number("speed_rpm", (0.01, 1e6), "1/min")?,
-        preload_n: keys.number("preload_n", (0.0, 1e6), "N")?,
-        stiffness_n_per_m: keys.number("stiffness_n_per_m", (0.0, 1e9), "N/m")?,
-        mass_kg: keys.number("mass_kg", (0.0, 1e4), "kg")?,
-        width_m: keys.number("width_m", (1e-4, 1.0), "m")?,
+        speed_rad_s: RPM * keys.number("speed_rpm", 0.01..=1e6, "1/min"),
+        preload_n: keys.number("preload_n", 0.0..=1e6, "N"),
+        stiffness_n_per_m: keys.number("stiffness_n_per_m", 0.0..=1e9, "N/m"),
+        mass_kg: keys.number("mass_kg", 0.0..=1e4, "kg"),
+        width_m: keys.number("width_m", 1e-4..=1.0, "m"),
     };
     // The flank: from the turning point of the lift, where the follower's speed is 0, to the end of it. The
     // turning point itself has S = 2; half a step away from it both surfaces move.
-    let n = keys.points(9)?;
+    let n = keys.whole("points", POINTS, 9);
     let unit = "degrees from the nose, the lesser first";
-    let ends = keys.pair("angles_deg", (0.0, end), unit)?;
+    let ends = keys.pair("angles_deg", 0.0..=end, unit);
+    keys.finish()?;
     let [near, far] = ends.unwrap_or([0.5 * end, end]);
     if near >= far {
         let allowed = format!("two numbers, 0 to {end} {unit}");

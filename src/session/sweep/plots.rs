@@ -9,9 +9,10 @@
 //!
 //! Each is written as SVG and as PNG. Several axes make one curve for each combination of the others, at most eight.
 
-use super::axis::{VariedKey, shown};
+use super::axis::VariedKey;
 use super::error::SweepError;
 use super::folder::Folder;
+use super::reader::shown;
 use super::spec::{Combine, Sweep};
 use super::table::Rows;
 use asperity_engine::scene::Knob;
@@ -95,103 +96,120 @@ fn scale_of(values: &[f64]) -> Scale {
     }
 }
 
-/// What the upright axis shows.
-type Upright<'a> = (&'a str, Scale);
-/// A curve's name, its column, what it is made of.
-type PlottedCurve<'a> = (&'a str, &'a str, Mark);
+/// A curve of a picture.
+struct PlottedCurve {
+    name: &'static str,
+    column: &'static str,
+    mark: Mark,
+}
 
-/// Pictures along the last axis, the first four of any sweep, all of a path: name, upright axis, curves.
+const fn computed(name: &'static str, column: &'static str) -> PlottedCurve {
+    let mark = Mark::Computed;
+    PlottedCurve { name, column, mark }
+}
+
+const fn formula(name: &'static str, column: &'static str) -> PlottedCurve {
+    let mark = Mark::Formula;
+    PlottedCurve { name, column, mark }
+}
+
+/// A picture of some columns.
+struct Plot {
+    name: &'static str,
+    /// Of the upright axis.
+    label: &'static str,
+    scale: Scale,
+    curves: &'static [PlottedCurve],
+}
+
+/// Pictures along the last axis, the first four of any sweep, all of a path.
 #[rustfmt::skip]
-const PICTURES: [(&str, Upright, &[PlottedCurve]); 7] = {
-    use Mark::{Computed, Formula};
-    use Scale::{Linear, Log};
-    [
-        ("life", ("relative life", Log), &[("", "life_relative", Computed)]),
-        ("traction", ("friction coefficient", Linear), &[("", "friction_coefficient", Computed)]),
-        ("pressure", ("pressure, Pa", Linear), &[("greatest", "p_max_greatest_pa", Computed), ("mean of the steps' greatest", "p_max_pa", Computed), ("Hertz", "p_hertz_pa", Formula)]),
-        ("film", ("film, m", Log), &[("centre", "h_central_m", Computed), ("mean of the steps' least", "h_min_m", Computed), ("smooth, by regression", "h_regression_m", Formula)]),
-        ("mechanisms", ("factor of life", Log), &[("cycles", "cycle_factor", Computed), ("peaks", "peak_factor", Computed), ("traction", "traction_factor", Computed)]),
-        ("contacts", ("contacts a loading cycle n", Log), &[("body 1", "n_body_1", Computed), ("body 2", "n_body_2", Computed)]),
-        ("lambda", ("lambda", Linear), &[("", "lambda_ratio", Computed)]),
-    ]
-};
+const PLOTS: [Plot; 7] = [
+    Plot { name: "life", label: "relative life", scale: Scale::Log, curves: &[computed("", "life_relative")] },
+    Plot { name: "traction", label: "friction coefficient", scale: Scale::Linear, curves: &[computed("", "friction_coefficient")] },
+    Plot { name: "pressure", label: "pressure, Pa", scale: Scale::Linear, curves: &[computed("greatest", "p_max_greatest_pa"), computed("mean of the steps' greatest", "p_max_pa"), formula("Hertz", "p_hertz_pa")] },
+    Plot { name: "film", label: "film, m", scale: Scale::Log, curves: &[computed("centre", "h_central_m"), computed("mean of the steps' least", "h_min_m"), formula("smooth, by regression", "h_regression_m")] },
+    Plot { name: "mechanisms", label: "factor of life", scale: Scale::Log, curves: &[computed("cycles", "cycle_factor"), computed("peaks", "peak_factor"), computed("traction", "traction_factor")] },
+    Plot { name: "contacts", label: "contacts a loading cycle n", scale: Scale::Log, curves: &[computed("body 1", "n_body_1"), computed("body 2", "n_body_2")] },
+    Plot { name: "lambda", label: "lambda", scale: Scale::Linear, curves: &[computed("", "lambda_ratio")] },
+];
+
+/// Pictures against λ, and where their legends stand: friction falls and life rises with the film.
+#[rustfmt::skip]
+const AGAINST_LAMBDA: [(Plot, Corner); 2] = [
+    (Plot { name: "stribeck", label: "friction coefficient", scale: Scale::Linear, curves: &[computed("", "friction_coefficient")] }, Corner::UpperRight),
+    (Plot { name: "life_against_lambda", label: "relative life", scale: Scale::Log, curves: &[computed("by damage", "life_damage"), computed("the paper's count", "life_global")] }, Corner::UpperLeft),
+];
 
 fn figures(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
-    let mut found = Vec::new();
     let Some(along) = along(sweep) else {
-        return found;
+        return Vec::new();
     };
     let lines = lines(sweep);
-    let more = if sweep.path.is_empty() {
-        4
+    let plots = if sweep.path.is_empty() {
+        &PLOTS[..4]
     } else {
-        PICTURES.len()
+        &PLOTS[..]
     };
-    for (name, y, columns) in &PICTURES[..more] {
-        let figure = figure(sweep, rows, &along, &lines, (*y, columns));
-        if !figure.curves.is_empty() {
-            found.push((format!("{name}_against_{}", along.short), figure));
-        }
+    let mut found = Vec::new();
+    for plot in plots {
+        let name = format!("{}_against_{}", plot.name, along.short);
+        found.push((name, figure(sweep, rows, &along, &lines, plot)));
     }
     found.extend(against_lambda(sweep, rows, &lines));
+    found.retain(|(_, figure)| !figure.curves.is_empty());
     found
 }
 
-/// Cases of each curve, and what sets it apart.
-fn lines(sweep: &Sweep) -> Vec<(String, Vec<usize>)> {
-    let all: Vec<usize> = (0..sweep.len()).collect();
-    let width = match (sweep.combine, sweep.axes.last()) {
-        (Combine::Grid, Some(axis)) => axis.values.len(),
-        _ => all.len(),
-    };
-    let others = &sweep.axes[..sweep.axes.len().saturating_sub(1)];
-    all.chunks(width.max(1))
-        .take(MOST_CURVES)
-        .map(|cases| {
-            let place = sweep.place(cases[0]);
-            let words: Vec<_> = match sweep.combine {
-                Combine::List => Vec::new(),
-                Combine::Grid => others
-                    .iter()
-                    .zip(place)
-                    .map(|(axis, k)| format!("{} = {}", axis.key, shown(&axis.values[k])))
-                    .collect(),
-            };
-            (words.join(", "), cases.to_vec())
-        })
-        .collect()
+/// Some cases of a sweep, one curve, and what sets it apart.
+struct Line {
+    name: String,
+    cases: std::ops::Range<usize>,
 }
 
-fn figure(
-    sweep: &Sweep,
-    rows: &Rows,
-    along: &CurveAxis,
-    lines: &[(String, Vec<usize>)],
-    ((label, scale), columns): (Upright, &[PlottedCurve]),
-) -> Figure {
+fn lines(sweep: &Sweep) -> Vec<Line> {
+    let width = match (sweep.combine, sweep.axes.last()) {
+        (Combine::Grid, Some(axis)) => axis.values.len(),
+        (Combine::List, _) | (Combine::Grid, None) => sweep.len(),
+    };
+    let others = match sweep.combine {
+        Combine::Grid => &sweep.axes[..sweep.axes.len().saturating_sub(1)],
+        Combine::List => &[],
+    };
+    let starts = (0..sweep.len()).step_by(width.max(1)).take(MOST_CURVES);
+    let line = |from: usize| {
+        let values = others.iter().zip(sweep.values(from));
+        let words = values.map(|(axis, value)| format!("{} = {}", axis.key, shown(value)));
+        Line {
+            name: words.collect::<Vec<_>>().join(", "),
+            cases: from..from + width,
+        }
+    };
+    starts.map(line).collect()
+}
+
+fn figure(sweep: &Sweep, rows: &Rows, along: &CurveAxis, lines: &[Line], plot: &Plot) -> Figure {
     let mut curves = Vec::new();
     let xs = rows.column(sweep, &along.column).unwrap_or_default();
-    for (what, column, mark) in columns {
-        let Some(ys) = rows.column(sweep, column) else {
-            continue;
-        };
+    for curve in plot.curves {
+        let ys = rows.column(sweep, curve.column).unwrap_or_default();
         if !ys.iter().any(|y| y.is_finite()) {
             continue;
         }
-        for (line, cases) in lines {
-            let name = [*what, line.as_str()];
+        for line in lines {
+            let name = [curve.name, line.name.as_str()];
             let name: Vec<_> = name.into_iter().filter(|part| !part.is_empty()).collect();
             curves.push(Curve {
                 name: name.join(", "),
-                points: cases.iter().map(|&k| (xs[k], ys[k])).collect(),
-                mark: *mark,
+                points: line.cases.clone().map(|k| (xs[k], ys[k])).collect(),
+                mark: curve.mark,
             });
         }
     }
     Figure {
         title: title(sweep),
         x: (along.label.clone(), along.scale),
-        y: (label.to_owned(), scale),
+        y: (plot.label.to_owned(), plot.scale),
         curves,
         levels: Vec::new(),
         legend: Corner::UpperRight,
@@ -207,11 +225,7 @@ fn title(sweep: &Sweep) -> String {
 }
 
 /// Friction and lives against λ, where something varies that moves λ.
-fn against_lambda(
-    sweep: &Sweep,
-    rows: &Rows,
-    lines: &[(String, Vec<usize>)],
-) -> Vec<(String, Figure)> {
+fn against_lambda(sweep: &Sweep, rows: &Rows, lines: &[Line]) -> Vec<(String, Figure)> {
     // Every knob but the sliding, and the oil.
     let moves = |axis: &VariedKey| match Knob::from_key(&axis.key) {
         Some(knob) => knob != Knob::SlideRoll,
@@ -227,32 +241,17 @@ fn against_lambda(
         scale: scale_of(&xs),
         short: String::new(),
     };
-    let friction: PlottedCurve = ("", "friction_coefficient", Mark::Computed);
-    let lives: [PlottedCurve; 2] = [
-        ("by damage", "life_damage", Mark::Computed),
-        ("the paper's count", "life_global", Mark::Computed),
-    ];
-    let draw = |name: &str, y: Upright, columns: &[PlottedCurve]| {
-        let mut figure = figure(sweep, rows, &lambda, lines, (y, columns));
+    let draw = |(plot, legend): &(Plot, Corner)| {
+        let mut figure = figure(sweep, rows, &lambda, lines, plot);
+        figure.legend = *legend;
         for curve in &mut figure.curves {
             curve.points.retain(|(x, y)| x.is_finite() && y.is_finite());
             curve.points.sort_by(|one, two| one.0.total_cmp(&two.0));
         }
         figure.curves.retain(|curve| curve.points.len() > 1);
-        // Friction falls and life rises with the film.
-        if name != "stribeck" {
-            figure.legend = Corner::UpperLeft;
-        }
-        let is_drawn = !figure.curves.is_empty();
-        is_drawn.then(|| (name.to_owned(), figure))
+        (plot.name.to_owned(), figure)
     };
-    let stribeck = draw(
-        "stribeck",
-        ("friction coefficient", Scale::Linear),
-        &[friction],
-    );
-    let lives = draw("life_against_lambda", ("relative life", Scale::Log), &lives);
-    stribeck.into_iter().chain(lives).collect()
+    AGAINST_LAMBDA.iter().map(draw).collect()
 }
 
 /// Life over the last two axes of a grid; of more axes, at the first values of the others.

@@ -1,20 +1,18 @@
 //! From a sweep file's text to a [`Sweep`]: every key known, of the right kind and within its range.
-//!
-//! `serde` was tried in place of reading key by key: some 40 lines of 330 less, but of 12 faulty files it took 2 (a chain of
-//! 0, a range of one case) and of 3 said only that no variant fits; no message would give the range, as those of scenes do.
 
 use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-use super::axis::{MOST_CASES, VariedKey, WARM, shown};
+use super::axis::{MOST_CASES, VariedKey, WARM};
 use super::error::SweepError;
 use super::maps;
-use super::path;
+use super::path::{self, PathKind};
 use super::presets;
+use super::reader::{TableReader, shown};
 use super::spec::{ChainKeys, Combine, Sweep, setting};
 use asperity_engine::files::read_up_to;
-use asperity_engine::scene::{Scene, SceneError, keys};
+use asperity_engine::scene::{Scene, SceneError, keys, presets as preset_scenes};
 
 /// Longest sweep file, bytes: a list of a million values.
 const LONGEST_FILE: u64 = 32 << 20;
@@ -76,9 +74,7 @@ pub(super) fn read(path: &Path, shown_path: &str) -> Result<String, SweepError> 
     String::from_utf8(bytes).map_err(|_| failed("not UTF-8 text".to_owned()))
 }
 
-const TOP: [&str; 9] = [
-    "title", "scene", "combine", "set", "vary", "chain", "gear", "race", "cam",
-];
+const COMBINE: [(&str, Combine); 2] = [("grid", Combine::Grid), ("list", Combine::List)];
 
 fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError> {
     let mut root = text.parse::<Table>().map_err(|error| SceneError::Syntax {
@@ -90,126 +86,108 @@ fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError
             maps::absolute("", table, folder);
         }
     }
-    if let Some(key) = root.keys().find(|key| !TOP.contains(&key.as_str())) {
-        return Err(SceneError::unknown_among(key, &TOP));
+    let mut file = TableReader::new("", &root);
+    let title = file.optional("title", "a text of at most 200 characters", |value| {
+        value.as_str().filter(|text| text.chars().count() <= 200)
+    });
+    let title = title.unwrap_or_default().to_owned();
+    let scene = file.optional("scene", "", Some);
+    let combine = file.choice("combine", &COMBINE);
+    let [set, vary, chain] = ["set", "vary", "chain"].map(|name| file.table(name));
+    let mut paths = Vec::new();
+    for kind in PathKind::ALL {
+        paths.extend(file.table(kind.name()).map(|table| (kind, table)));
     }
-    let title = text_of(&root, "title", 200)?.unwrap_or_default();
-    let base = read_base(&root, folder)?;
-    let mut set = Vec::new();
-    let mut set_text = Vec::new();
-    let mut set_keys = Vec::new();
-    for (key, value) in flat(&root, "set")? {
-        set_text.push(format!("{key}={value}"));
-        set.push(setting(&key, &value)?);
-        set_keys.push(key);
+    file.finish()?;
+    let mut sweep = Sweep {
+        name: name.to_owned(),
+        title,
+        axes: Vec::new(),
+        combine,
+        chain: read_chain(chain)?,
+        path: Vec::new(),
+        tooth: None,
+        base: read_base(scene, folder)?,
+        set: set.map_or_else(|| Ok(Vec::new()), |set| settings("set", set))?,
+        text: String::new(),
+        source: text.to_owned(),
+        maps: Vec::new(),
+        inputs: Vec::new(),
+    };
+    for (key, value) in &sweep.set {
+        setting((key, value))?;
     }
-    let chain = read_chain(&root)?;
-    let paths = ["gear", "race", "cam"];
-    let given: Vec<_> = paths
-        .into_iter()
-        .filter(|p| root.contains_key(*p))
-        .collect();
-    let (mut axes, combine, points) = match (given.as_slice(), root.contains_key("vary")) {
-        ([], true) => {
-            let combine = read_combine(&root)?;
-            let mut axes = Vec::new();
-            for (key, value) in flat(&root, "vary")? {
-                axes.push(VariedKey::read(&key, &value)?);
-            }
-            (axes, combine, Vec::new())
+    match (vary, paths.as_slice()) {
+        (Some(vary), []) => {
+            let axes = settings("vary", vary)?;
+            let axes = axes.iter().map(|(key, value)| VariedKey::read(key, value));
+            sweep.axes = axes.collect::<Result<_, _>>()?;
         }
-        ([kind], false) => {
-            let scene = Scene::from_toml_with(&base.0, &base.1, &set)?;
-            let path = path::read(kind, table_of(&root, kind)?, &scene)?;
-            (path.axes, Combine::List, path.points)
+        (None, [(kind, table)]) => {
+            let path = path::read(*kind, table, &sweep.base_scene()?)?;
+            (sweep.axes, sweep.path, sweep.tooth) = (path.axes, path.points, path.tooth);
+            sweep.combine = Combine::List;
         }
-        _ => {
+        (Some(_), [_, ..]) | (None, [] | [_, _, ..]) => {
             return Err(SceneError::Missing {
                 key: "[vary]".to_owned(),
                 allowed: "exactly one of [vary], [gear], [race], [cam]".to_owned(),
             });
         }
-    };
-    if let Some(axis) = axes.iter().find(|axis| set_keys.contains(&axis.key)) {
+    }
+    let is_set = |axis: &&VariedKey| sweep.set.iter().any(|(key, _)| *key == axis.key);
+    if let Some(axis) = sweep.axes.iter().find(is_set) {
         let key = format!("set.{}", axis.key);
         return Err(SceneError::value(key, "a value", "nothing: the key varies"));
     }
-    sort(&mut axes);
-    let files = maps::files(&set_text, &axes);
-    let maps = files.iter().map(|file| maps::digest(file)).collect();
-    let mut inputs = files;
-    inputs.extend(inputs_of(&root, folder));
-    check_size(&axes, combine)?;
-    let mut whole = root;
-    if let Ok(scene) = base.0.parse::<Table>() {
+    sort(&mut sweep.axes);
+    check_size(&sweep.axes, sweep.combine)?;
+    sweep.inputs = maps::files(&sweep.set, &sweep.axes);
+    sweep.maps = sweep.inputs.iter().map(|file| maps::digest(file)).collect();
+    sweep.inputs.extend(inputs_of(scene, folder));
+    let mut whole = root.clone();
+    if let Ok(scene) = sweep.base.parse::<Table>() {
         whole.insert("scene".to_owned(), Value::Table(scene));
     }
-    Ok(Sweep {
-        name: name.to_owned(),
-        title,
-        axes,
-        combine,
-        chain,
-        path: points,
-        base,
-        set,
-        set_text,
-        text: whole.to_string(),
-        source: text.to_owned(),
-        maps,
-        inputs,
-    })
+    sweep.text = whole.to_string();
+    Ok(sweep)
 }
 
 /// The scene's file and its height maps.
-fn inputs_of(root: &Table, folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    let scene = root.get("scene");
-    if let Some(name) = scene.and_then(Value::as_str)
-        && asperity_engine::scene::presets::find(name).is_none()
-    {
-        files.push(folder.join(name));
-    }
-    for body in ["body_1", "body_2"] {
-        let surface = scene.and_then(|scene| scene.get(body)?.get("surface"));
-        let file = surface.and_then(|surface| surface.get("file")?.as_str());
-        files.extend(file.map(|file| folder.join(file)));
-    }
-    files
+fn inputs_of(scene: Option<&Value>, folder: &Path) -> Vec<PathBuf> {
+    let name = scene.and_then(Value::as_str);
+    let file = name.filter(|name| preset_scenes::find(name).is_none());
+    let maps = ["body_1", "body_2"].into_iter().filter_map(|body| {
+        let surface = scene?.get(body)?.get("surface")?;
+        surface.get("file")?.as_str()
+    });
+    let files = file.into_iter().chain(maps);
+    files.map(|file| folder.join(file)).collect()
 }
 
-/// The base scene's text, checked, and its name.
-fn read_base(root: &Table, folder: &Path) -> Result<(String, String), SceneError> {
-    let scene = match root.get("scene") {
-        None => Scene::load(asperity_engine::scene::presets::DEFAULT)?,
-        Some(Value::String(name)) if asperity_engine::scene::presets::find(name).is_some() => {
-            Scene::load(name)?
-        }
+/// The base scene's text, checked.
+fn read_base(scene: Option<&Value>, folder: &Path) -> Result<String, SceneError> {
+    let scene = match scene {
+        None => Scene::load(preset_scenes::DEFAULT)?,
+        Some(Value::String(name)) if preset_scenes::find(name).is_some() => Scene::load(name)?,
         Some(Value::String(name)) => Scene::load(&folder.join(name).to_string_lossy())?,
         Some(Value::Table(table)) => Scene::from_toml_with(&table.to_string(), "scene", &[])?,
         Some(other) => {
-            return Err(SceneError::value(
-                "scene",
-                shown(other),
-                "a preset, a TOML file, or a table [scene]",
-            ));
+            let allowed = "a preset, a TOML file, or a table [scene]";
+            return Err(SceneError::value("scene", shown(other), allowed));
         }
     };
-    let text = toml::to_string(&scene).map_err(|error| SceneError::Syntax {
+    toml::to_string(&scene).map_err(|error| SceneError::Syntax {
         origin: "scene".to_owned(),
         reason: error.to_string(),
-    })?;
-    Ok((text, "scene".to_owned()))
+    })
 }
 
-/// `[set]` and `[vary]` with their dotted keys put together: `motion.slide_roll` may stand as one quoted key
-/// or as a table in a table.
-fn flat(root: &Table, name: &str) -> Result<Vec<(String, Value)>, SceneError> {
-    if !root.contains_key(name) {
-        return Ok(Vec::new());
-    }
+/// `[set]` or `[vary]` with dotted keys put together: `motion.slide_roll` may stand as one quoted key or as a table in a
+/// table.
+fn settings(name: &str, table: &Table) -> Result<Vec<(String, Value)>, SceneError> {
     let mut found = Vec::new();
-    flatten("", table_of(root, name)?, &mut found);
+    flatten("", table, &mut found);
     for (key, _) in &found {
         match (keys::find(key), keys::section(key)) {
             (None, None) => return Err(SceneError::unknown_key(key)),
@@ -217,7 +195,7 @@ fn flat(root: &Table, name: &str) -> Result<Vec<(String, Value)>, SceneError> {
                 let full = format!("vary.{key}");
                 return Err(SceneError::value(full, "a table", "one of its keys"));
             }
-            _ => {}
+            (Some(_), _) | (None, Some(_)) => {}
         }
     }
     // A table has no order, and a surface of another kind keeps nothing that was set before.
@@ -225,11 +203,8 @@ fn flat(root: &Table, name: &str) -> Result<Vec<(String, Value)>, SceneError> {
     let mut names: Vec<_> = found.iter().map(|(key, _)| key.clone()).collect();
     names.sort();
     if let Some([twice, ..]) = names.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(SceneError::value(
-            format!("{name}.{twice}"),
-            "given twice",
-            "each key once",
-        ));
+        let key = format!("{name}.{twice}");
+        return Err(SceneError::value(key, "given twice", "each key once"));
     }
     Ok(found)
 }
@@ -244,78 +219,15 @@ fn flatten(prefix: &str, table: &Table, found: &mut Vec<(String, Value)>) {
     }
 }
 
-fn table_of<'a>(root: &'a Table, name: &str) -> Result<&'a Table, SceneError> {
-    match root.get(name) {
-        Some(Value::Table(table)) => Ok(table),
-        Some(other) => Err(SceneError::value(
-            name,
-            shown(other),
-            format!("a table [{name}]"),
-        )),
-        None => Err(SceneError::Missing {
-            key: format!("[{name}]"),
-            allowed: "a table".to_owned(),
-        }),
-    }
-}
-
-fn text_of(root: &Table, name: &str, longest: usize) -> Result<Option<String>, SceneError> {
-    match root.get(name) {
-        None => Ok(None),
-        Some(Value::String(text)) if text.chars().count() <= longest => Ok(Some(text.clone())),
-        Some(other) => Err(SceneError::value(
-            name,
-            shown(other),
-            format!("a text of at most {longest} characters"),
-        )),
-    }
-}
-
-fn read_combine(root: &Table) -> Result<Combine, SceneError> {
-    match root.get("combine").map(|value| (value.as_str(), value)) {
-        None | Some((Some("grid"), _)) => Ok(Combine::Grid),
-        Some((Some("list"), _)) => Ok(Combine::List),
-        Some((_, other)) => Err(SceneError::value(
-            "combine",
-            shown(other),
-            "\"grid\" or \"list\"",
-        )),
-    }
-}
-
-fn read_chain(root: &Table) -> Result<ChainKeys, SceneError> {
-    let mut chain = ChainKeys {
-        longest: CHAIN,
-        passages: None,
+fn read_chain(table: Option<&Table>) -> Result<ChainKeys, SceneError> {
+    let none = Table::new();
+    let mut chain = TableReader::new("chain", table.unwrap_or(&none));
+    let keys = ChainKeys {
+        longest: chain.whole("longest", 1..=LONGEST_CHAIN, CHAIN),
+        passages: chain.optional_number("passages", 0.25..=1e4, ""),
     };
-    if !root.contains_key("chain") {
-        return Ok(chain);
-    }
-    for (name, value) in table_of(root, "chain")? {
-        match name.as_str() {
-            "longest" => {
-                let allowed = format!("a whole number, 1 to {LONGEST_CHAIN}");
-                chain.longest = value
-                    .as_integer()
-                    .filter(|n| (1..=LONGEST_CHAIN).contains(n))
-                    .ok_or_else(|| SceneError::value("chain.longest", shown(value), allowed))?
-                    as usize;
-            }
-            "passages" => {
-                let passages = super::axis::number(value)
-                    .filter(|p| (0.25..=1e4).contains(p))
-                    .ok_or_else(|| {
-                        SceneError::value("chain.passages", shown(value), "0.25 to 1e4")
-                    })?;
-                chain.passages = Some(passages);
-            }
-            other => {
-                let full = format!("chain.{other}");
-                return Err(SceneError::unknown_among(&full, &["longest", "passages"]));
-            }
-        }
-    }
-    Ok(chain)
+    chain.finish()?;
+    Ok(keys)
 }
 
 /// In the order in which scenes print their keys, those that allow warm starts last.

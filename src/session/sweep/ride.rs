@@ -9,13 +9,10 @@
 
 use std::collections::BTreeMap;
 
-use toml::Table;
-
 use super::error::SweepError;
 use super::path;
-use super::path_keys::Keys;
 use super::spec::Sweep;
-use asperity_engine::scene::{Event, Scene, Tooth};
+use asperity_engine::scene::{Event, Scene};
 
 impl Sweep {
     /// The ride along a `[gear]` path; `None` for other sweeps.
@@ -80,21 +77,8 @@ impl Sweep {
         }
         ride.time.passages = way_m / (4.0 * half_m) + 1.0;
         ride.record = Some(asperity_engine::scene::Record::default());
-        ride.tooth = self.tooth();
+        ride.tooth = self.tooth;
         Ok(Some(ride))
-    }
-}
-
-impl Sweep {
-    /// The tooth of `[gear]`, which has been read before; `None` of other sweeps.
-    fn tooth(&self) -> Option<Tooth> {
-        let root = self.source.parse::<Table>().ok()?;
-        let keys = Keys {
-            kind: "gear",
-            table: root.get("gear")?.as_table()?,
-        };
-        let pair = path::gear_pair(&keys).ok()?;
-        Some(Tooth::of(&pair.gears, pair.speed_rad_s))
     }
 }
 

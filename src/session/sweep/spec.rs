@@ -22,10 +22,11 @@ use std::path::PathBuf;
 
 use toml::Value;
 
-use super::axis::{VariedKey, shown};
+use super::axis::VariedKey;
 use super::error::SweepError;
 use super::path::PathPoint;
-use asperity_engine::scene::{ContactKind, Override, Scene, SceneError};
+use super::reader::shown;
+use asperity_engine::scene::{ContactKind, Override, Scene, SceneError, Tooth};
 
 /// How several axes combine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,12 +62,12 @@ pub struct Sweep {
     pub chain: ChainKeys,
     /// The points of a path, one a case; empty: no path.
     pub path: Vec<PathPoint>,
-    /// The scene's text, its name for messages.
-    pub(super) base: (String, String),
+    /// The tooth that a path of a gear goes along.
+    pub(super) tooth: Option<Tooth>,
+    /// The scene's text.
+    pub(super) base: String,
     /// Keys set in every case.
-    pub(super) set: Vec<Override>,
-    /// The same as written, for the digest.
-    pub(super) set_text: Vec<String>,
+    pub(super) set: Vec<(String, Value)>,
     /// The whole file with its scene in it: what a folder keeps.
     pub(super) text: String,
     /// The file as it was written.
@@ -143,11 +144,8 @@ impl Sweep {
     }
 
     fn scene_of(&self, case: usize) -> Result<Scene, SceneError> {
-        let mut overrides = self.set.clone();
-        for (axis, value) in self.axes.iter().zip(self.values(case)) {
-            overrides.push(setting(&axis.key, value)?);
-        }
-        let mut scene = Scene::from_toml_with(&self.base.0, &self.base.1, &overrides)?;
+        let axes = self.axes.iter().zip(self.values(case));
+        let mut scene = self.scene_with(axes.map(|(axis, value)| (&axis.key, value)))?;
         scene.record = None;
         Ok(scene)
     }
@@ -157,7 +155,16 @@ impl Sweep {
     /// # Errors
     /// As [`Sweep::scene`].
     pub fn base_scene(&self) -> Result<Scene, SceneError> {
-        Scene::from_toml_with(&self.base.0, &self.base.1, &self.set)
+        self.scene_with(std::iter::empty())
+    }
+
+    fn scene_with<'a>(
+        &'a self,
+        varied: impl Iterator<Item = (&'a String, &'a Value)>,
+    ) -> Result<Scene, SceneError> {
+        let set = self.set.iter().map(|(key, value)| (key, value));
+        let overrides: Result<Vec<_>, _> = set.chain(varied).map(setting).collect();
+        Scene::from_toml_with(&self.base, "scene", &overrides?)
     }
 
     /// The header of a column: loads of a line are per metre of length.
@@ -183,32 +190,29 @@ impl Sweep {
 
     /// Everything that decides the table, in one text: the digest is made of it.
     pub(super) fn canonical(&self) -> String {
-        let axes: Vec<_> = self
-            .axes
-            .iter()
-            .map(|axis| {
-                let values: Vec<_> = axis.values.iter().map(Value::to_string).collect();
-                format!("{} = {}", axis.key, values.join(" "))
-            })
-            .collect();
+        let set = self.set.iter().map(|(key, value)| format!("{key}={value}"));
+        let axes = self.axes.iter().map(|axis| {
+            let values: Vec<_> = axis.values.iter().map(Value::to_string).collect();
+            format!("{} = {}", axis.key, values.join(" "))
+        });
         format!(
             "{:?}\n{:?}\n{}\n{}\n{:?}\n{}\n{}",
             self.combine,
             self.chain,
-            self.set_text.join("\n"),
-            axes.join("\n"),
+            set.collect::<Vec<_>>().join("\n"),
+            axes.collect::<Vec<_>>().join("\n"),
             self.path,
             self.maps.join("\n"),
-            self.base.0
+            self.base
         )
     }
 }
 
 /// An override from a key and a TOML value.
-pub(super) fn setting(key: &str, value: &Value) -> Result<Override, SceneError> {
+pub(super) fn setting((key, value): (&String, &Value)) -> Result<Override, SceneError> {
     match value.as_str() {
         // The word that takes a key or a table out.
         Some("none") => format!("{key}=none").parse(),
-        _ => format!("{key}={value}").parse(),
+        Some(_) | None => format!("{key}={value}").parse(),
     }
 }

@@ -15,85 +15,92 @@ use super::folder::Folder;
 use super::spec::Sweep;
 use crate::cells::{Cells, csv_line};
 use asperity_engine::files::fnv;
-use asperity_engine::sim::{CATALOGUE, Summary};
+use asperity_engine::sim::{CATALOGUE, Stats};
 
 /// Where a column's number stands in a record.
 type InRecord = fn(&CaseRecord) -> Option<f64>;
 
+/// A number of a summary as a cell of the table.
+trait Cell {
+    /// `has_steps`: without a step there are no means.
+    fn cell(self, has_steps: bool) -> Option<f64>;
+}
+
+impl Cell for f64 {
+    fn cell(self, has_steps: bool) -> Option<f64> {
+        has_steps.then_some(self)
+    }
+}
+
+impl Cell for u64 {
+    fn cell(self, has_steps: bool) -> Option<f64> {
+        has_steps.then_some(self as f64)
+    }
+}
+
+impl<T: Into<f64>> Cell for Option<T> {
+    fn cell(self, _has_steps: bool) -> Option<f64> {
+        self.map(Into::into)
+    }
+}
+
+/// Columns named as the numbers of the summary that they show.
+macro_rules! summary {
+    ($($name:ident)*) => {
+        &[$((stringify!($name), |r| r.summary.$name.cell(r.summary.steps > 0))),*]
+    };
+}
+
 /// Columns after those of the path and the axes; what the catalogue shows by itself follows them.
-#[rustfmt::skip]
-const COLUMNS: [(&str, InRecord); 54] = [
-    ("h_regression_m", |r| r.h_regression_m),
-    ("h_min_regression_m", |r| r.h_min_regression_m),
-    ("lambda_ratio", |r| r.lambda_ratio),
-    ("a_m", |r| got(r, |s| s.a_m)),
-    ("p_hertz_pa", |r| got(r, |s| s.p_hertz_pa)),
-    ("load_n", |r| got(r, |s| s.load_n)),
-    ("h_central_m", |r| got(r, |s| s.h_central_m)),
-    ("h_min_m", |r| got(r, |s| s.h_min_m)),
-    ("h_min_least_m", |r| got(r, |s| s.h_min_least_m)),
-    ("p_max_pa", |r| got(r, |s| s.p_max_pa)),
-    ("p_max_greatest_pa", |r| got(r, |s| s.p_max_greatest_pa)),
-    ("contact_ratio", |r| got(r, |s| s.contact_ratio)),
-    ("contact_load_ratio", |r| got(r, |s| s.contact_load_ratio)),
-    ("friction_coefficient", |r| got(r, |s| s.friction_coefficient)),
-    ("n_body_1", |r| r.summary.n_body_1),
-    ("n_body_2", |r| r.summary.n_body_2),
-    ("n_counted_body_1", |r| r.summary.n_counted_body_1),
-    ("n_counted_body_2", |r| r.summary.n_counted_body_2),
-    ("i_ref", |r| r.summary.i_ref),
-    ("i_mean", |r| r.summary.i_mean),
-    ("cycle_factor", |r| r.summary.cycle_factor),
-    ("stress_factor", |r| r.summary.stress_factor),
-    ("peak_factor", |r| r.summary.peak_factor),
-    ("traction_factor", |r| r.summary.traction_factor),
-    ("load_factor", |r| r.summary.load_factor),
-    ("life_relative", |r| r.summary.life_relative),
-    ("life_relative_low", |r| r.summary.life_relative_low),
-    ("life_relative_high", |r| r.summary.life_relative_high),
-    ("life_body", |r| r.summary.life_body.map(f64::from)),
-    ("life_body_1", |r| r.summary.life_body_1),
-    ("life_body_2", |r| r.summary.life_body_2),
-    ("life_system", |r| r.summary.life_system),
-    ("life_global", |r| r.summary.life_global),
-    ("life_damage", |r| r.summary.life_damage),
-    ("life_models_low", |r| r.summary.life_models_low),
-    ("life_models_high", |r| r.summary.life_models_high),
-    ("life_cycles", |r| r.summary.life_cycles),
-    ("survival_ratio", |r| r.summary.survival_ratio),
-    ("sigma_eff_max_pa", |r| r.summary.sigma_eff_max_pa),
-    ("sigma_eff_max_depth_m", |r| r.summary.sigma_eff_max_depth_m),
-    ("sigma_eff_max_x_m", |r| r.summary.sigma_eff_max_x_m),
-    ("cycles_end_depth_1_m", |r| r.summary.cycles_end_depth_1_m),
-    ("cycles_end_depth_2_m", |r| r.summary.cycles_end_depth_2_m),
-    ("pit_depth_1_m", |r| r.summary.pit_body_1.map(|pit| pit.depth_m)),
-    ("pit_depth_2_m", |r| r.summary.pit_body_2.map(|pit| pit.depth_m)),
-    ("period_s", |r| r.summary.period_s),
-    ("period_drift", |r| r.summary.period_drift),
-    ("load_error", |r| got(r, |s| s.load_error)),
-    ("mass_error", |r| got(r, |s| s.mass_error)),
-    ("steps", |r| got(r, |s| s.steps as f64)),
-    ("steps_not_converged", |r| got(r, |s| s.steps_not_converged as f64)),
-    ("newton_iterations", |r| got(r, |s| s.counters.newton_iterations as f64)),
-    ("linear_iterations", |r| got(r, |s| s.counters.linear_iterations as f64)),
-    ("ffts", |r| got(r, |s| s.counters.ffts as f64)),
+const COLUMNS: [&[(&str, InRecord)]; 5] = [
+    &[
+        ("h_regression_m", |r| r.h_regression_m),
+        ("h_min_regression_m", |r| r.h_min_regression_m),
+        ("lambda_ratio", |r| r.lambda_ratio),
+    ],
+    summary! {
+        a_m p_hertz_pa load_n h_central_m h_min_m h_min_least_m p_max_pa p_max_greatest_pa
+        contact_ratio contact_load_ratio friction_coefficient
+        n_body_1 n_body_2 n_counted_body_1 n_counted_body_2
+        i_ref i_mean cycle_factor stress_factor peak_factor traction_factor load_factor
+        life_relative life_relative_low life_relative_high life_body life_body_1 life_body_2
+        life_system life_global life_damage life_models_low life_models_high
+        life_cycles survival_ratio
+        sigma_eff_max_pa sigma_eff_max_depth_m sigma_eff_max_x_m
+        cycles_end_depth_1_m cycles_end_depth_2_m
+    },
+    &[
+        ("pit_depth_1_m", |r| Some(r.summary.pit_body_1?.depth_m)),
+        ("pit_depth_2_m", |r| Some(r.summary.pit_body_2?.depth_m)),
+    ],
+    summary! { period_s period_drift load_error mass_error steps steps_not_converged },
+    &[
+        ("newton_iterations", |r| counted(r, |c| c.newton_iterations)),
+        ("linear_iterations", |r| counted(r, |c| c.linear_iterations)),
+        ("ffts", |r| counted(r, |c| c.ffts)),
+    ],
 ];
 
-/// Without a step there are no means.
-fn got(record: &CaseRecord, number: fn(&Summary) -> f64) -> Option<f64> {
-    (record.summary.steps > 0).then(|| number(&record.summary))
+fn counted(record: &CaseRecord, counter: fn(&Stats) -> u64) -> Option<f64> {
+    let summary = &record.summary;
+    counter(&summary.counters).cell(summary.steps > 0)
 }
 
 /// Names of all those columns.
 fn columns() -> impl Iterator<Item = &'static str> {
     let more = CATALOGUE.iter().filter(|quantity| quantity.by_itself);
     let more = more.flat_map(|quantity| quantity.over).map(|(_, key)| *key);
-    COLUMNS.iter().map(|(name, _)| *name).chain(more)
+    let own = COLUMNS.into_iter().flatten().map(|(name, _)| *name);
+    own.chain(more)
 }
 
 /// A record's number in the column of that name.
 fn number(record: &CaseRecord, name: &str) -> Option<f64> {
-    match COLUMNS.iter().find(|(column, _)| *column == name) {
+    match COLUMNS
+        .into_iter()
+        .flatten()
+        .find(|(column, _)| *column == name)
+    {
         Some((_, of)) => of(record),
         None => *record.summary.by_itself.get(name)?,
     }
@@ -179,16 +186,8 @@ impl Rows {
     fn row(sweep: &Sweep, record: &CaseRecord, row: &mut Cells) -> Result<(), SweepError> {
         let scene = sweep.scene(record.index)?;
         let scene = toml::to_string(&scene).unwrap_or_default();
-        row.clear();
-        row.text(record.index);
-        if let Some(point) = sweep.path.get(record.index) {
-            for (_, value) in &point.values {
-                row.number(*value);
-            }
-        }
-        for value in sweep.values(record.index) {
-            write_value(row, value);
-        }
+        begin_row(row, sweep, record.index);
+        write_values(row, sweep, record.index);
         row.text(format_args!("{:016x}", fnv(scene.as_bytes())));
         row.text(match record.began {
             CaseStart::Cold => "cold",
@@ -216,24 +215,28 @@ impl Rows {
 
     /// The worst end of all cases.
     pub fn worst(&self) -> CaseEnd {
-        let has = |end| self.records.iter().any(|record| record.end == end);
-        if has(CaseEnd::Stalled) {
-            CaseEnd::Stalled
-        } else if has(CaseEnd::NotConverged) {
-            CaseEnd::NotConverged
-        } else {
-            CaseEnd::Converged
-        }
+        let ends = self.records.iter().map(|record| record.end);
+        ends.max().unwrap_or(CaseEnd::Converged)
     }
 }
 
-/// A value as the sweep file has it.
-pub(super) fn write_value(row: &mut Cells, value: &Value) {
-    match value {
-        Value::Float(number) if number.is_infinite() => row.text(number),
-        Value::Float(number) => row.number(*number),
-        Value::String(text) => row.text(text),
-        other => row.text(other),
+/// Begins the row of a case: its number, and where it is on its path.
+pub(super) fn begin_row(row: &mut Cells, sweep: &Sweep, case: usize) {
+    row.clear();
+    row.text(case);
+    for (_, value) in sweep.path.get(case).into_iter().flat_map(|p| &p.values) {
+        row.number(*value);
+    }
+}
+
+/// Writes the values of a case, one an axis, as the sweep file has them.
+pub(super) fn write_values(row: &mut Cells, sweep: &Sweep, case: usize) {
+    for value in sweep.values(case) {
+        match value {
+            Value::Float(number) if !number.is_infinite() => row.number(*number),
+            Value::String(text) => row.text(text),
+            other => row.text(other),
+        }
     }
 }
 

@@ -1,13 +1,14 @@
 //! Smooth steady film of a circular contact against the computed table.
 //!
-//! M = 20, L = 10, Barus, incompressible, edges −4.5 a, 1.5 a, ±3 a: central film 4.804, least film 2.961 in Moes
+//! M = 20, L = 10, Barus, incompressible, edges −4.5 a, 1.5 a, ±3 a: central film 4.804, minimum film 2.961 in Moes
 //! units, to 0.5 % (`assets/reference/smooth_barus_incompressible.csv`). Started from Hertz on 65² (33² on itself),
 //! flushed, refined, flushed again, as a run does.
 
 use std::f64::consts::PI;
 
+use super::super::StudyError;
 use super::hertz::LOAD;
-use super::row::{AccuracyRow, Against, StudiedPart, Timed, Varied, against_finest, timed};
+use super::series::{Against, Measured, Part, Series, Varied, timed};
 use asperity_engine::math::grid::{Grid, Symmetry};
 use asperity_engine::physics::fluid::{Density, Viscosity};
 use asperity_engine::solve::march::{Conditions, Flow, Guess, March, Shape};
@@ -21,8 +22,10 @@ const LEAST: f64 = 2.961;
 const DOMAIN: (f64, f64, f64) = (-4.5, 1.5, 3.0);
 /// Tolerance of the series over nodes.
 const TIGHT: f64 = 1e-4;
+/// Nodes of the series over the tolerance.
+const ITERATED_NODES: usize = 65;
 
-/// Central and least film in Moes units, and the work.
+/// Central and minimum film in Moes units, and the work.
 struct SmoothFilm {
     central: f64,
     least: f64,
@@ -30,55 +33,44 @@ struct SmoothFilm {
 }
 
 /// Film over nodes against the table, over the tolerance against the tightest.
-pub(super) fn smooth(sizes: &[usize], tolerances: &[f64]) -> Result<Vec<AccuracyRow>, String> {
-    let row = |film: &SmoothFilm, time: Timed, quantity, value: f64, error| AccuracyRow {
-        part: StudiedPart::SmoothFilm,
-        quantity,
-        varied: Varied::Nodes,
-        setting: 0.0,
-        fixed: format!("tolerance {TIGHT:e}"),
-        value: Some(value),
-        error,
+pub(super) fn smooth(nodes: &[f64]) -> Result<Vec<Series>, StudyError> {
+    let over_nodes = Part {
+        name: "smooth film",
+        quantities: ["central film", "minimum film"],
         against: Against::Table,
-        order: None,
-        seconds: time.seconds,
-        runs: time.runs,
-        threads: rayon::current_num_threads(),
-        work: film.newton,
         work_unit: "Newton",
-        bytes: None,
-        front: false,
     };
-    let mut films = Vec::new();
-    for &nodes in sizes {
-        let (film, time) = timed(|| solve(nodes, TIGHT));
-        films.push((nodes, film?, time));
-    }
-    let mut rows = Vec::new();
-    for quantity in ["central film", "least film"] {
-        for (nodes, film, time) in &films {
-            let (value, table) = if quantity == "central film" {
-                (film.central, CENTRAL)
-            } else {
-                (film.least, LEAST)
-            };
-            let mut row = row(film, *time, quantity, value, (value / table - 1.0).abs());
-            row.setting = *nodes as f64;
-            rows.push(row);
-        }
-    }
-    let first = rows.len();
-    let nodes = sizes[sizes.len().min(2) - 1];
-    for &tolerance in tolerances {
-        let (film, time) = timed(|| solve(nodes, tolerance));
+    let rest = format!("tolerance {TIGHT:e}");
+    let mut series = over_nodes.over(Varied::Nodes, nodes, &rest, |nodes| {
+        let (film, seconds) = timed(|| solve(nodes as usize, TIGHT));
         let film = film?;
-        let mut row = row(&film, time, "central film, iteration", film.central, 0.0);
-        (row.varied, row.setting) = (Varied::Tolerance, tolerance);
-        (row.fixed, row.against) = (format!("N {nodes}"), Against::Finest);
-        rows.push(row);
-    }
-    against_finest(&mut rows[first..]);
-    Ok(rows)
+        let errors = [film.central / CENTRAL - 1.0, film.least / LEAST - 1.0];
+        Ok(Measured {
+            values: errors.map(f64::abs),
+            seconds,
+            work: film.newton,
+        })
+    })?;
+    let over_tolerance = Part {
+        name: "smooth film",
+        quantities: ["central film, iteration"],
+        against: Against::Finest,
+        work_unit: "Newton",
+    };
+    let tolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-6];
+    let rest = format!("N {ITERATED_NODES}");
+    series.extend(
+        over_tolerance.over(Varied::Tolerance, &tolerances, &rest, |tolerance| {
+            let (film, seconds) = timed(|| solve(ITERATED_NODES, tolerance));
+            let film = film?;
+            Ok(Measured {
+                values: [film.central],
+                seconds,
+                work: film.newton,
+            })
+        })?,
+    );
+    Ok(series)
 }
 
 fn solve(nodes: usize, tolerance: f64) -> Result<SmoothFilm, String> {

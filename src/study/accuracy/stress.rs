@@ -1,10 +1,11 @@
 //! Stress under a Hertz pressure: slice, volume, life integral.
 //!
-//! Closed forms: the whole field under a sliding Hertz pressure ([`hertz_sliding`]), the greatest von Mises stress on
+//! Closed forms: the whole field under a sliding Hertz pressure ([`hertz_sliding`]), the maximum von Mises stress on
 //! the axis ([`hertz_axis_maximum`]), and ∫ σ^10 dV = 2.878184e-3 p_h^10 a³ (ν = 0.3, by quadrature of the closed
 //! field). The stress engine works in single precision.
 
-use super::row::{AccuracyRow, Against, StudiedPart, Timed, Varied, timed};
+use super::super::StudyError;
+use super::series::{Against, Measured, Part, Series, Varied, timed};
 use asperity_engine::physics::stress_exact::{hertz_axis_maximum, hertz_sliding};
 use asperity_engine::solve::stress::{SliceOut, StressEngine, StressSpec, Symmetry};
 
@@ -20,16 +21,26 @@ const FROM_DEPTH: f64 = 0.25;
 /// What an engine is made for.
 #[derive(Debug, Clone, Copy)]
 struct EngineSetting {
-    n: usize,
+    intervals: usize,
     depths: usize,
     decay: f64,
 }
 
 const USUAL: EngineSetting = EngineSetting {
-    n: 128,
+    intervals: 128,
     depths: 32,
     decay: StressSpec::DECAY,
 };
+
+impl EngineSetting {
+    fn measured<const N: usize>(self, values: [f64; N], seconds: f64) -> Measured<N> {
+        Measured {
+            values,
+            seconds,
+            work: (self.depths * self.intervals * self.intervals) as u64,
+        }
+    }
+}
 
 struct LoadedCase {
     engine: StressEngine,
@@ -38,8 +49,8 @@ struct LoadedCase {
 }
 
 fn loaded(setting: EngineSetting) -> Result<LoadedCase, String> {
-    let d = 2.0 * HALF / setting.n as f64;
-    let shape = (setting.n + 1, setting.n / 2 + 1);
+    let d = 2.0 * HALF / setting.intervals as f64;
+    let shape = (setting.intervals + 1, setting.intervals / 2 + 1);
     let mut spec = StressSpec::new(
         shape,
         (d, d),
@@ -60,134 +71,86 @@ fn loaded(setting: EngineSetting) -> Result<LoadedCase, String> {
     Ok(LoadedCase { engine, p, q })
 }
 
-fn row(
-    (part, quantity): (StudiedPart, &'static str),
-    (varied, value): (Varied, f64),
-    setting: EngineSetting,
-    engine: &StressEngine,
-    (error, time): (f64, Timed),
-) -> AccuracyRow {
-    let [n, depths, decay] = [
-        format!("N {}", setting.n),
-        format!("{} depths", setting.depths),
-        format!("epsilon {:e}", setting.decay),
-    ];
-    let fixed = match varied {
-        Varied::Nodes => [depths, decay],
-        Varied::Depths => [n, decay],
-        _ => [n, depths],
-    };
-    AccuracyRow {
-        part,
-        quantity,
-        varied,
-        setting: value,
-        fixed: fixed.join(", "),
-        value: None,
-        error,
-        against: Against::ClosedForm,
-        order: None,
-        seconds: time.seconds,
-        runs: time.runs,
-        threads: rayon::current_num_threads(),
-        work: (setting.depths * setting.n * setting.n) as u64,
-        work_unit: "node depths",
-        bytes: Some(engine.bytes() as u64),
-        front: false,
-    }
-}
-
 /// Worst error of any component in the plane y = 0 from a quarter of a half-width down.
-fn slice(setting: EngineSetting, varied: (Varied, f64)) -> Result<AccuracyRow, String> {
+fn slice(setting: EngineSetting) -> Result<Measured<1>, String> {
     let LoadedCase { mut engine, p, q } = loaded(setting)?;
     let mut out = SliceOut::new(engine.spec());
-    let ((), time) = timed(|| {
+    let ((), seconds) = timed(|| {
         engine.load(&p, Some(&q));
         engine.slice(&mut out);
     });
     let spec = engine.spec();
     let mut worst: f64 = 0.0;
-    for (k, &z) in spec
-        .depths
-        .iter()
-        .enumerate()
-        .filter(|(_, z)| **z >= FROM_DEPTH)
-    {
+    for (k, &z) in spec.depths.iter().enumerate() {
         for i in 0..spec.nx {
             let x = spec.x_first + spec.dx * i as f64;
-            if x.abs() <= 1.5 {
+            if x.abs() <= 1.5 && z >= FROM_DEPTH {
                 let exact = hertz_sliding(x, 0.0, z, POISSON, FRICTION);
                 worst = worst.max(exact.distance(out.state(k * spec.nx + i)));
             }
         }
     }
-    let what = (StudiedPart::Slice, "worst component, z > a/4");
-    Ok(row(what, varied, setting, &engine, (worst, time)))
+    Ok(setting.measured([worst], seconds))
 }
 
-/// The greatest von Mises stress and the life integral, from one volume.
-fn volume(setting: EngineSetting, varied: (Varied, f64)) -> Result<[AccuracyRow; 2], String> {
+/// The maximum von Mises stress and the life integral, from one volume.
+fn volume(setting: EngineSetting) -> Result<Measured<2>, String> {
     let LoadedCase { mut engine, p, .. } = loaded(setting)?;
-    let (out, time) = timed(|| {
+    let (out, seconds) = timed(|| {
         engine.load(&p, None);
         engine.volume(EXPONENT)
     });
-    // Of a volume the greatest is that of its samples, which no sum looks at; the refined one is the slice's.
+    // The maximum of a volume is that of its samples, which no sum looks at; the refined one is the slice's.
     let mut slice = SliceOut::new(engine.spec());
     engine.slice(&mut slice);
-    let (_, greatest) = hertz_axis_maximum(POISSON);
-    let peak = (slice.peak.value / greatest - 1.0).abs();
-    let integral = (out.normal.ln.exp() / INTEGRAL - 1.0).abs();
-    Ok([
-        row(
-            (StudiedPart::Volume, "greatest von Mises"),
-            varied,
-            setting,
-            &engine,
-            (peak, time),
-        ),
-        row(
-            (StudiedPart::LifeIntegral, "integral, m = 10"),
-            varied,
-            setting,
-            &engine,
-            (integral, time),
-        ),
-    ])
+    let (_, maximum) = hertz_axis_maximum(POISSON);
+    let errors = [
+        slice.peak.value / maximum - 1.0,
+        out.normal.ln.exp() / INTEGRAL - 1.0,
+    ];
+    Ok(setting.measured(errors.map(f64::abs), seconds))
 }
 
 /// All three over nodes, depths and ε.
-pub(super) fn stress(
-    sizes: &[usize],
-    depths: &[usize],
-    decays: &[f64],
-) -> Result<Vec<AccuracyRow>, String> {
-    let mut settings = Vec::new();
-    for &n in sizes {
-        settings.push((
-            EngineSetting { n, ..USUAL },
-            (Varied::Nodes, (n + 1) as f64),
-        ));
-    }
-    for &depths in depths {
-        settings.push((
-            EngineSetting { depths, ..USUAL },
-            (Varied::Depths, depths as f64),
-        ));
-    }
-    for &decay in decays {
-        settings.push((EngineSetting { decay, ..USUAL }, (Varied::Decay, decay)));
-    }
-    let (mut slices, mut peaks, mut integrals) = (Vec::new(), Vec::new(), Vec::new());
-    for (setting, varied) in settings {
-        if varied.0 != Varied::Depths {
-            slices.push(slice(setting, varied)?);
-        }
-        let [peak, integral] = volume(setting, varied)?;
-        peaks.push(peak);
-        integrals.push(integral);
-    }
-    slices.extend(peaks);
-    slices.extend(integrals);
-    Ok(slices)
+pub(super) fn stress(intervals: &[f64]) -> Result<Vec<Series>, StudyError> {
+    let of_slice = Part {
+        name: "stress slice",
+        quantities: ["worst component, z > a/4"],
+        against: Against::ClosedForm,
+        work_unit: "node depths",
+    };
+    let of_volume = Part {
+        name: "stress volume",
+        quantities: ["maximum von Mises", "life integral, m = 10"],
+        against: Against::ClosedForm,
+        work_unit: "node depths",
+    };
+    let nodes: Vec<f64> = intervals.iter().map(|n| n + 1.0).collect();
+    let at_nodes = |nodes: f64| EngineSetting {
+        intervals: nodes as usize - 1,
+        ..USUAL
+    };
+    let at_depths = |depths: f64| EngineSetting {
+        depths: depths as usize,
+        ..USUAL
+    };
+    let at_decay = |decay: f64| EngineSetting { decay, ..USUAL };
+    let [n, depths, decay] = [
+        format!("N {}", USUAL.intervals + 1),
+        format!("{} depths", USUAL.depths),
+        format!("epsilon {:e}", USUAL.decay),
+    ];
+    let decays = [1e-2, 1e-3, 1e-4, 1e-6, 1e-8];
+    let layers = [8.0, 12.0, 16.0, 24.0, 32.0, 48.0];
+    let rests = [
+        format!("{depths}, {decay}"),
+        format!("{n}, {decay}"),
+        format!("{n}, {depths}"),
+    ];
+    let mut series = of_slice.over(Varied::Nodes, &nodes, &rests[0], |n| slice(at_nodes(n)))?;
+    series.extend(of_slice.over(Varied::Decay, &decays, &rests[2], |e| slice(at_decay(e)))?);
+    series.extend(of_volume.over(Varied::Nodes, &nodes, &rests[0], |n| volume(at_nodes(n)))?);
+    series.extend(of_volume.over(Varied::Depths, &layers, &rests[1], |d| volume(at_depths(d)))?);
+    series.extend(of_volume.over(Varied::Decay, &decays, &rests[2], |e| volume(at_decay(e)))?);
+    Ok(series)
 }

@@ -8,7 +8,6 @@ use super::dent::dent;
 use super::fit::{FittedWaves, read};
 use super::set::{EvidenceCase, Measure, Values, planned};
 use asperity_engine::physics::film_ripple::FlatFilm;
-use asperity_engine::physics::fluid::{Density, Viscosity};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Order, Scene, Surface};
 use asperity_engine::sim::{Simulation, Summary};
@@ -105,7 +104,7 @@ fn wave_of(scene: &Scene) -> Result<(f64, f64), String> {
             wavelength_x_m,
             ..
         } => Ok((wavelength_x_m, amplitude_m)),
-        _ => Err("body 1 has no wave".to_owned()),
+        Surface::Smooth {} | Surface::HeightMap { .. } => Err("body 1 has no wave".to_owned()),
     }
 }
 
@@ -146,13 +145,16 @@ fn hooke(scene: &Scene, plan: &Plan) -> Result<Values, String> {
     let (a_m, p_h) = (plan.hertz.a_m, plan.hertz.p_max_pa);
     let share = read.pressure_pa / p_h;
     let (eta_0, alpha) = (oil.viscosity_pa_s, oil.pressure_viscosity_per_pa);
-    let viscosity = eta_0 * Viscosity::roelands(eta_0, alpha, p_h).ln_eta(share).0.exp();
+    let viscosity = eta_0
+        * oil
+            .viscosity_law
+            .scaled(eta_0, alpha, p_h)
+            .ln_eta(share)
+            .0
+            .exp();
     let sliding_m_s = (scene.motion.slide_roll * scene.motion.entrainment_m_s).abs();
     let sigma = (viscosity * sliding_m_s / (oil.eyring_stress_pa * read.film_m)).asinh();
-    let (rho, slope) = Density::DowsonHigginson {
-        p_hertz_gpa: 1e-9 * p_h,
-    }
-    .rho(share);
+    let (rho, slope) = oil.density_law.scaled(p_h).rho(share);
     let flat = FlatFilm {
         e_prime_pa: scene.e_prime_pa(),
         film_m: read.film_m,

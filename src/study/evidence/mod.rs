@@ -21,7 +21,7 @@ pub use set::{
     Comparison, EvidenceCase, EvidenceClaim, EvidenceNumber, EvidencePoint, EvidenceSet,
     Experiment, Forecast, Grade, Measure, planned,
 };
-pub use tried::{Judged, Tried, TriedDamage, word};
+pub use tried::{Judged, Tried, TriedDamage};
 
 use std::time::Instant;
 
@@ -110,7 +110,7 @@ impl EvidenceJob<'_> {
         match self {
             Self::Case(case, nodes, _) => format!("{}, {nodes} nodes", case.name),
             Self::Point(experiment, point, basis, _) => {
-                format!("{}, {}, {}", experiment.name, point.label, word(*basis))
+                format!("{}, {}, {}", experiment.name, point.label, basis.key())
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Pictures of the evidence.
 
-use super::tried::{Tried, word};
+use super::tried::Tried;
 use super::{Evidence, Grade};
 use asperity_engine::scene::CycleBasis;
 use asperity_picture::chart::{Chart as _, Corner, Curve, Figure, Mark, Scale};
@@ -95,7 +95,7 @@ fn curves(tried: &Tried) -> Vec<Curve> {
     for (k, basis) in CycleBasis::ALL.into_iter().enumerate() {
         let values = tried.damages.iter();
         let values = values.map(|found| found[k].as_ref().ok().map(|damage| damage.value));
-        curves.push(curve(word(basis), values.collect()));
+        curves.push(curve(basis.key().to_owned(), values.collect()));
     }
     curves
 }

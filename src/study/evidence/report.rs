@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::super::table::{MarkdownTable, figure};
-use super::tried::{Judged, Tried, word};
+use super::tried::{Judged, Tried};
 use super::{Evidence, EvidenceRow};
 use asperity_engine::scene::CycleBasis;
 
@@ -144,60 +144,36 @@ fn push_experiment(text: &mut String, tried: &Tried) {
         experiment.comparable,
         experiment.not_comparable
     );
-    let countings: Vec<String> = CycleBasis::ALL.into_iter().map(word).collect();
-    let head = countings.join(" | ");
-    let rule = "|---".repeat(countings.len());
-    let _ = writeln!(text, "| point | scene | {head} |\n|---|---{rule}|");
+    let mut damages = by_counting(&["point", "scene"]);
     for (point, found) in experiment.point.iter().zip(&tried.damages) {
-        let cell = |found: &Result<super::TriedDamage, String>| match found {
+        let body = if point.body == 1 { "" } else { " (body 2)" };
+        let sets: String = (point.set.iter().map(|set| format!(" --set {set}"))).collect();
+        let mut row = vec![
+            format!("{}{body}", point.label),
+            format!("evidence/{}{sets}", point.scene),
+        ];
+        row.extend(found.iter().map(|found| match found {
             Ok(damage) if point.depth_m.is_some() => {
                 format!("stress {}", figure(Some(damage.value)))
             }
             Ok(damage) => format!("life {}", figure(Some(1.0 / damage.value))),
             Err(reason) => format!("failed: {reason}"),
-        };
-        let cells: Vec<String> = found.iter().map(cell).collect();
-        let mut sets = String::new();
-        for set in &point.set {
-            let _ = write!(sets, " --set {set}");
-        }
-        let body = if point.body == 1 { "" } else { " (body 2)" };
-        let _ = writeln!(
-            text,
-            "| {}{body} | evidence/{}{sets} | {} |",
-            point.label,
-            point.scene,
-            cells.join(" | ")
-        );
+        }));
+        damages.rows.push(row);
     }
-    let _ = writeln!(
-        text,
-        "\n| what it says | measured | {head} |\n|---|---{rule}|"
-    );
+    text.push_str(&damages.markdown());
+    text.push('\n');
+    let mut claims = by_counting(&["what it says", "measured"]);
     for judged in &tried.judged {
-        let measured = judged
-            .claim
-            .ratio
-            .map_or_else(|| "-".to_owned(), |ratio| figure(Some(ratio)));
-        let cells: Vec<String> = judged
-            .ratios
-            .iter()
-            .zip(&judged.holds)
-            .map(|(ratio, holds)| {
-                format!(
-                    "{} {}",
-                    if *holds { "yes" } else { "no" },
-                    figure(Some(*ratio))
-                )
-            })
-            .collect();
-        let _ = writeln!(
-            text,
-            "| {} | {measured} | {} |",
-            judged.claim.says,
-            cells.join(" | ")
-        );
+        let mut row = vec![judged.claim.says.clone(), figure(judged.claim.ratio)];
+        let found = judged.ratios.iter().zip(&judged.holds);
+        row.extend(found.map(|(ratio, holds)| {
+            let holds = if *holds { "yes" } else { "no" };
+            format!("{holds} {}", figure(Some(*ratio)))
+        }));
+        claims.rows.push(row);
     }
+    text.push_str(&claims.markdown());
     for judged in &tried.judged {
         if !judged.holds.iter().all(|holds| *holds) {
             let why = judged.claim.why.as_deref().unwrap_or(UNKNOWN);
@@ -205,6 +181,11 @@ fn push_experiment(text: &mut String, tried: &Tried) {
         }
     }
     push_forecast(text, tried);
+}
+
+/// A table with those columns and one for every counting.
+fn by_counting(first: &[&'static str]) -> MarkdownTable {
+    MarkdownTable::new(&[first, CycleBasis::KEYS].concat())
 }
 
 /// What a known life foretells, by every counting.
@@ -232,43 +213,34 @@ fn push_forecast(text: &mut String, tried: &Tried) {
         };
         let [l10, low, high] = [forecast.l10, forecast.low, forecast.high]
             .map(|life| figure(Some(life * known.value / wanted.value)));
-        let _ = writeln!(text, "- {}: {l10} ({low} to {high})", word(basis));
+        let _ = writeln!(text, "- {}: {l10} ({low} to {high})", basis.key());
     }
 }
 
 /// Which counting agrees with what.
 fn push_countings(text: &mut String, experiments: &[Tried]) {
-    let countings: Vec<String> = CycleBasis::ALL.into_iter().map(word).collect();
-    let _ = writeln!(
-        text,
-        "\n## Countings\n\nClaims that hold, of those that go by life:\n\n| experiment | {} |\n|---{}|",
-        countings.join(" | "),
-        "|---".repeat(countings.len())
-    );
+    text.push_str("\n## Countings\n\nClaims that hold, of those that go by life:\n\n");
     let by_life = |tried: &Tried| -> Vec<Judged> {
         let judged = tried.judged.iter().filter(|judged| !judged.is_stress);
         judged.cloned().collect()
     };
+    let mut table = by_counting(&["experiment"]);
     for tried in experiments {
         let judged = by_life(tried);
         let held = |k: usize| judged.iter().filter(|judged| judged.holds[k]).count();
-        let cells: Vec<String> = (0..countings.len())
-            .map(|k| format!("{} of {}", held(k), judged.len()))
-            .collect();
-        let _ = writeln!(
-            text,
-            "| {} | {} |",
-            tried.experiment.name,
-            cells.join(" | ")
-        );
+        let mut row = vec![tried.experiment.name.clone()];
+        let countings = 0..CycleBasis::KEYS.len();
+        row.extend(countings.map(|k| format!("{} of {}", held(k), judged.len())));
+        table.rows.push(row);
     }
+    text.push_str(&table.markdown());
     let all: Vec<Judged> = experiments.iter().flat_map(by_life).collect();
     let _ = writeln!(text, "\n{}", verdict(&all));
 }
 
 /// The sentence: whether one counting agrees with all experiments.
 pub(super) fn verdict(all: &[Judged]) -> String {
-    let countings: Vec<String> = CycleBasis::ALL.into_iter().map(word).collect();
+    let countings = CycleBasis::KEYS;
     let can_hold: Vec<&Judged> = all
         .iter()
         .filter(|judged| judged.holds.contains(&true))
@@ -284,23 +256,15 @@ pub(super) fn verdict(all: &[Judged]) -> String {
         .filter(|judged| !judged.holds.contains(&true))
         .map(|judged| format!("\"{}\"", judged.claim.says))
         .collect();
-    let complete: Vec<&String> = countings
-        .iter()
-        .enumerate()
-        .filter(|(k, _)| held(*k) == can_hold.len())
-        .map(|(_, name)| name)
-        .collect();
-    let names = |names: &[&String]| {
-        let names: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
-        names.join(", ")
-    };
-    let first = match (&complete[..], hopeless.len()) {
-        ([], _) => "**No counting agrees with all experiments**".to_owned(),
-        (some, 0) => format!("**All claims are met by {}**", names(some)),
-        (some, _) => format!(
-            "**No counting agrees with all experiments; {} meets all that any meets**",
-            names(some)
-        ),
+    let complete = (0..countings.len()).filter(|k| held(*k) == can_hold.len());
+    let complete: Vec<&str> = complete.map(|k| countings[k]).collect();
+    let names = complete.join(", ");
+    let first = if complete.is_empty() {
+        "**No counting agrees with all experiments**".to_owned()
+    } else if hopeless.is_empty() {
+        format!("**All claims are met by {names}**")
+    } else {
+        format!("**No counting agrees with all experiments; {names} meets all that any meets**")
     };
     let mut text = format!(
         "{first}: of {} claims that at least one counting meets, {}.",
@@ -360,7 +324,7 @@ mod tests {
 
     #[test]
     fn the_sentence_says_what_the_table_says() {
-        let first = word(CycleBasis::ALL[0]);
+        let first = CycleBasis::KEYS[0];
         let all = verdict(&[judged("a", &[0, 1]), judged("b", &[0])]);
         assert!(
             all.starts_with(&format!("**All claims are met by {first}**")),

@@ -3,34 +3,25 @@
 use serde::Deserialize;
 
 use super::super::Extent;
+use asperity_engine::closed_set;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
 
 /// The set, as it stands in the program.
 const SET: &str = include_str!("../../../assets/studies/evidence.toml");
 
-/// Where a number comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-pub enum Grade {
-    /// Closed form.
-    A,
-    /// Independent code.
-    B,
-    /// Published computation.
-    C,
-    /// Published experiment.
-    D,
-}
-
-impl Grade {
-    /// Name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::A => "A closed form",
-            Self::B => "B independent code",
-            Self::C => "C published computation",
-            Self::D => "D published experiment",
-        }
+closed_set! {
+    /// Where a number comes from.
+    #[derive(PartialOrd, Ord)]
+    pub enum Grade {
+        /// Closed form.
+        A = "A" "A closed form",
+        /// Independent code.
+        B = "B" "B independent code",
+        /// Published computation.
+        C = "C" "C published computation",
+        /// Published experiment.
+        D = "D" "D published experiment",
     }
 }
 

@@ -1,19 +1,16 @@
 //! Cases as data (`assets/studies/stability.toml`), and the scene that each of them means.
 //!
-//! ```text
-//! v(t) = usual^(1−t) extreme^t      both above 0, else  usual + t (extreme − usual)        0 ≤ t ≤ 1
-//! ```
-//! A case pushes one or more keys from a usual value to an extreme one; t = 1 is the case itself, and smaller t
-//! lead back to what is known to work. Beside the keys of a scene there are some that no scene has because
-//! they depend on others: see [`Lever`].
+//! A case sets one or more keys to extreme values. Beside the keys of a scene there are some that no scene has because they
+//! depend on others: see [`Lever`].
 
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use super::super::{planned, scene_with};
 use asperity_engine::physics::hertz::Hertz;
 use asperity_engine::plan::Plan;
-use asperity_engine::scene::{Event, Override, Scene};
+use asperity_engine::scene::{ContactKind, Event, Scene};
 use asperity_engine::sim::Knob;
 
 /// Step of the passage at which knobs are turned, as a share of it.
@@ -74,9 +71,9 @@ pub struct Case {
     /// Who turns the knobs of its jumps.
     #[serde(default)]
     pub turned: TurnedBy,
-    /// Keys with their usual and their extreme value.
+    /// Keys with their extreme values.
     #[serde(default)]
-    pub push: BTreeMap<String, [f64; 2]>,
+    pub push: BTreeMap<String, f64>,
 }
 
 fn one() -> f64 {
@@ -105,15 +102,10 @@ pub struct CaseSet {
 /// What a pushed key means.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Lever {
-    /// `moes.m`, `moes.l`: viscosity and its pressure coefficient follow from Moes' groups.
-    MoesM,
-    MoesL,
-    /// `wave.nodes`: wavelength in nodes of the grid, both bodies.
-    WaveNodes,
-    /// `wave.amplitude_m`: amplitude of each body.
-    WaveAmplitude,
-    /// `shape.ellipticity`: b/a of the Hertz ellipse; the radius across follows.
-    Ellipticity,
+    /// What several keys of the scene follow from: `moes.m` and `moes.l` (Moes' groups: viscosity and its pressure
+    /// coefficient), `wave.nodes` (wavelength in nodes of the grid, both bodies), `wave.amplitude_m` (of each body),
+    /// `shape.ellipticity` (b/a of the Hertz ellipse: the radius across).
+    Derived,
     /// `jump.KEY`: a knob turned in the middle of the passage.
     Jump(Knob),
     /// A key of the scene.
@@ -123,11 +115,9 @@ enum Lever {
 impl Lever {
     fn of(name: &str) -> Self {
         match name {
-            "moes.m" => Self::MoesM,
-            "moes.l" => Self::MoesL,
-            "wave.nodes" => Self::WaveNodes,
-            "wave.amplitude_m" => Self::WaveAmplitude,
-            "shape.ellipticity" => Self::Ellipticity,
+            "moes.m" | "moes.l" | "wave.nodes" | "wave.amplitude_m" | "shape.ellipticity" => {
+                Self::Derived
+            }
             _ => name
                 .strip_prefix("jump.")
                 .and_then(Knob::from_key)
@@ -158,21 +148,21 @@ impl CaseSet {
         })
     }
 
-    /// The scene of a case on `nodes` per side, pushed by `t`.
+    /// The scene of a case on `nodes` per side.
     ///
     /// # Errors
     /// Why it is refused.
-    pub(super) fn ready(&self, case: &Case, nodes: usize, t: f64) -> Result<Ready, String> {
+    pub(super) fn ready(&self, case: &Case, nodes: usize) -> Result<Ready, String> {
         let mut texts = self.set.clone();
         texts.push(format!("grid.nodes={nodes}"));
         texts.push(format!("time.passages={}", case.passages));
         texts.extend(case.set.iter().cloned());
         let mut jumps = Vec::new();
-        for (name, range) in &case.push {
+        for (name, value) in &case.push {
             match Lever::of(name) {
-                Lever::Jump(knob) => jumps.push((knob, pushed(*range, t))),
-                Lever::Key => texts.push(format!("{name}={:e}", pushed(*range, t))),
-                _ => {}
+                Lever::Jump(knob) => jumps.push((knob, *value)),
+                Lever::Key => texts.push(format!("{name}={value:e}")),
+                Lever::Derived => {}
             }
         }
         let foreseen = match case.turned {
@@ -182,7 +172,7 @@ impl CaseSet {
         let smooth = ["body_1", "body_2"].map(|body| format!("{body}.surface.kind=smooth"));
         let mut bare = texts.clone();
         bare.extend(smooth.clone());
-        let derived = self.derived(case, &bare, t)?;
+        let derived = self.derived(case, &bare)?;
         texts.extend(derived.iter().cloned());
         bare.extend(derived);
         match case.texture {
@@ -190,37 +180,20 @@ impl CaseSet {
             Texture::Smooth => texts.extend(smooth),
             Texture::Rough => {
                 // The domain, and with it the spacing, follows from the amplitude: long waves of it show both.
-                let planned = |texts: &[String]| {
-                    Plan::new(&self.with_events(texts, foreseen)?)
-                        .map_err(|error| error.to_string())
-                };
-                let smooth = planned(&bare)?;
-                bare.extend(waves(case, &smooth, t, LONG_WAVE_NODES));
-                let rough = planned(&bare)?;
-                let nodes = case
-                    .push
-                    .get("wave.nodes")
-                    .map_or(WAVE_NODES, |r| pushed(*r, t));
-                texts.extend(waves(case, &rough, t, nodes));
+                let (_, smooth) = planned(self.with_events(&bare, foreseen)?)?;
+                bare.extend(waves(case, &smooth, LONG_WAVE_NODES));
+                let (_, rough) = planned(self.with_events(&bare, foreseen)?)?;
+                let nodes = case.push.get("wave.nodes").copied();
+                texts.extend(waves(case, &rough, nodes.unwrap_or(WAVE_NODES)));
             }
         }
-        let scene = self.with_events(&texts, foreseen)?;
-        let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
+        let (scene, plan) = planned(self.with_events(&texts, foreseen)?)?;
         Ok(Ready { scene, plan, jumps })
-    }
-
-    fn load(&self, texts: &[String]) -> Result<Scene, String> {
-        let overrides = texts
-            .iter()
-            .map(|text| text.parse::<Override>())
-            .collect::<Result<Vec<_>, _>>()
-            .map_err(|error| error.to_string())?;
-        Scene::load_with(&self.scene, &overrides).map_err(|error| error.to_string())
     }
 
     /// The scene with its jumps as an event.
     fn with_events(&self, texts: &[String], jumps: &[(Knob, f64)]) -> Result<Scene, String> {
-        let mut scene = self.load(texts)?;
+        let mut scene = scene_with(&self.scene, texts)?;
         if !jumps.is_empty() {
             let length_m = 4.0 * scene.hertz().a_m * scene.time.passages;
             scene.events.push(Event {
@@ -236,18 +209,18 @@ impl CaseSet {
     }
 
     /// Keys that follow from others of the scene: of the ellipse and of Moes' groups.
-    fn derived(&self, case: &Case, texts: &[String], t: f64) -> Result<Vec<String>, String> {
-        let get = |name: &str| case.push.get(name).map(|range| pushed(*range, t));
+    fn derived(&self, case: &Case, texts: &[String]) -> Result<Vec<String>, String> {
+        let get = |name: &str| case.push.get(name).copied();
         let mut found = Vec::new();
         if let Some(ellipticity) = get("shape.ellipticity") {
-            let rx_m = self.load(texts)?.contact.rx_m;
+            let rx_m = scene_with(&self.scene, texts)?.contact.rx_m;
             found.push(format!(
                 "contact.ry_m={:e}",
                 rx_m * radius_ratio(ellipticity)
             ));
         }
         if let Some((m, l)) = get("moes.m").zip(get("moes.l")) {
-            let scene = self.load(texts)?;
+            let scene = scene_with(&self.scene, texts)?;
             let (e_prime_pa, rx_m) = (scene.e_prime_pa(), scene.contact.rx_m);
             let load = scene.force_n() / (e_prime_pa * rx_m * rx_m);
             // M = W/(2U)^{3/4}, L = G (2U)^{1/4}, U = η0 u/(E'R), G = α E'.
@@ -262,26 +235,12 @@ impl CaseSet {
     }
 }
 
-/// Value of a pushed key.
-pub(super) fn pushed([usual, extreme]: [f64; 2], t: f64) -> f64 {
-    if t == 1.0 {
-        // Rounding must not carry it beyond what is allowed.
-        extreme
-    } else if usual > 0.0 && extreme > 0.0 {
-        (usual.ln() + t * (extreme / usual).ln()).exp()
-    } else {
-        usual + t * (extreme - usual)
-    }
-}
-
 /// Overrides that put waves of so many nodes on both bodies.
-fn waves(case: &Case, plan: &Plan, t: f64, nodes: f64) -> Vec<String> {
+fn waves(case: &Case, plan: &Plan, nodes: f64) -> Vec<String> {
     // A touch more than asked for: rounding must not make 4 nodes fewer than 4.
     let nodes = nodes * (1.0 + 1e-9);
-    let amplitude_m = case
-        .push
-        .get("wave.amplitude_m")
-        .map_or(WAVE_AMPLITUDE_M, |r| pushed(*r, t));
+    let amplitude_m = case.push.get("wave.amplitude_m").copied();
+    let amplitude_m = amplitude_m.unwrap_or(WAVE_AMPLITUDE_M);
     let (wave_x, wave_y) = (nodes * plan.dx_m, nodes * plan.dy_m);
     vec![
         "body_1.surface.kind=sinusoid".to_owned(),
@@ -291,12 +250,8 @@ fn waves(case: &Case, plan: &Plan, t: f64, nodes: f64) -> Vec<String> {
         format!("body_1.surface.amplitude_m={amplitude_m:e}"),
         format!("body_2.surface.amplitude_m={amplitude_m:e}"),
         match plan.kind {
-            asperity_engine::scene::ContactKind::Line => {
-                "body_2.surface.wavelength_y_m=inf".to_owned()
-            }
-            asperity_engine::scene::ContactKind::Point => {
-                format!("body_2.surface.wavelength_y_m={wave_y:e}")
-            }
+            ContactKind::Line => "body_2.surface.wavelength_y_m=inf".to_owned(),
+            ContactKind::Point => format!("body_2.surface.wavelength_y_m={wave_y:e}"),
         },
     ]
 }
@@ -330,7 +285,7 @@ mod tests {
         assert_eq!(names.len(), set.cases.len(), "names are unique");
         for case in &set.cases {
             for nodes in [33, 65] {
-                let ready = set.ready(case, nodes, 1.0);
+                let ready = set.ready(case, nodes);
                 assert!(ready.is_ok(), "{}: {:?}", case.name, ready.err());
             }
             for name in case.push.keys().filter(|name| name.starts_with("jump.")) {
@@ -345,10 +300,7 @@ mod tests {
         let find = |lever: &str| {
             let case = set.cases.iter().find(|case| case.push.contains_key(lever));
             let case = case.expect("a case with that lever");
-            (
-                set.ready(case, 65, 1.0).expect("ready"),
-                case.push[lever][1],
-            )
+            (set.ready(case, 65).expect("ready"), case.push[lever])
         };
         let (ready, m) = find("moes.m");
         let groups = ready.plan.film.expect("a film").groups;
@@ -358,11 +310,5 @@ mod tests {
         let (ready, nodes) = find("wave.nodes");
         let wave = ready.plan.waves[0].expect("rough");
         assert!((wave.nodes[0] / nodes - 1.0).abs() < 1e-6);
-    }
-
-    #[test]
-    fn half_way_is_geometric_where_it_can_be() {
-        assert!((pushed([1.0, 100.0], 0.5) - 10.0).abs() < 1e-12);
-        assert!((pushed([-2.0, 2.0], 0.5)).abs() < 1e-12);
     }
 }

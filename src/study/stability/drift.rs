@@ -7,8 +7,8 @@
 //! goes), the oil under the Hertz ellipse ∬h, and the power of friction μ w U|S|. The standard error of the slope
 //! stands beside it: windows do not hold whole periods, so their means scatter.
 
-use asperity_engine::plan::Plan;
-use asperity_engine::scene::{Override, Scene, presets};
+use super::super::{planned, scene_with};
+use asperity_engine::scene::presets;
 use asperity_engine::sim::{Frame, Simulation, Stage};
 
 /// Names of the sums.
@@ -79,32 +79,18 @@ pub(super) fn long_run(
     steps: u64,
     heard: &mut dyn FnMut(u64),
 ) -> Result<Drift, String> {
+    // 8 nodes a wave whatever the grid.
+    let wavelength_m = 8.0 * SPAN_M / (nodes - 1) as f64;
     let sets = [
         format!("grid.nodes={nodes}"),
         "stress=none".to_owned(),
         "life=none".to_owned(),
         "record=none".to_owned(),
-        // 8 nodes a wave whatever the grid.
-        format!(
-            "body_1.surface.wavelength_x_m={:e}",
-            8.0 * SPAN_M / (nodes - 1) as f64
-        ),
-        format!(
-            "body_2.surface.wavelength_x_m={:e}",
-            8.0 * SPAN_M / (nodes - 1) as f64
-        ),
-        format!(
-            "body_2.surface.wavelength_y_m={:e}",
-            8.0 * SPAN_M / (nodes - 1) as f64
-        ),
+        format!("body_1.surface.wavelength_x_m={wavelength_m:e}"),
+        format!("body_2.surface.wavelength_x_m={wavelength_m:e}"),
+        format!("body_2.surface.wavelength_y_m={wavelength_m:e}"),
     ];
-    let overrides = sets
-        .iter()
-        .map(|text| text.parse::<Override>())
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(|error| error.to_string())?;
-    let scene = Scene::load_with(presets::QUICK, &overrides).map_err(|error| error.to_string())?;
-    let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
+    let (scene, plan) = planned(scene_with(presets::QUICK, &sets)?)?;
     let window = plan.steps_per_passage;
     let mut sim = Simulation::new(&scene, plan, 1).map_err(|error| error.to_string())?;
     let mut frame = Frame::default();

@@ -1,13 +1,11 @@
 //! Stiff and extreme cases: every one ends converged or by name.
 //!
 //! The cases are data ([`CaseSet::shipped`]). Each is run from Hertz through its start-up and its passage on one
-//! thread under a work limit; every step and every field is judged ([`TrialEnd`]). A case that does not converge
-//! is searched back towards its usual setting until it does. A long run of the default scene shows whether
+//! thread under a work limit; every step and every field is judged ([`TrialEnd`]). A long run of the default scene shows whether
 //! anything creeps ([`Drift`]).
 
 mod case;
 mod drift;
-mod remedy;
 mod trial;
 
 use std::fmt::Write as _;
@@ -17,7 +15,7 @@ pub use drift::Drift;
 pub use trial::{Trial, TrialEnd};
 
 use super::table::{MarkdownTable, figure};
-use super::{Extent, StudyError, StudyProgress, refuse_nothing};
+use super::{Extent, Report, StudyError, StudyProgress, refuse_nothing};
 use asperity_session::run::share_out;
 
 /// A case and how it went.
@@ -29,8 +27,6 @@ pub struct StabilityRow {
     pub group: String,
     /// How it went.
     pub trial: Trial,
-    /// The nearest setting that works, where it did not converge and one was found.
-    pub remedy: Option<String>,
 }
 
 /// The study's result.
@@ -114,85 +110,49 @@ pub fn stability(
 }
 
 fn run_case(set: &CaseSet, case: &Case, nodes: usize) -> StabilityRow {
-    let trial = match set.ready(case, nodes, 1.0) {
-        Ok(ready) => trial::run(&ready),
-        Err(reason) => Trial::refused(reason),
-    };
-    let remedy = if trial.ending.is_converged() {
-        None
-    } else {
-        remedy::search(set, case, nodes)
-    };
     StabilityRow {
         name: case.name.clone(),
         group: case.group.clone(),
-        trial,
-        remedy,
+        trial: match set.ready(case, nodes) {
+            Ok(ready) => trial::run(&ready),
+            Err(reason) => Trial::refused(reason),
+        },
     }
 }
 
-/// The table.
-pub fn stability_table(result: &Stability) -> MarkdownTable {
-    let mut table = MarkdownTable::new(&[
-        "group",
-        "case",
-        "ending",
-        "steps",
-        "residual",
-        "load error",
-        "mass error",
-        "p min/p_h",
-        "p max/p_h",
-        "h min, nm",
-        "h_c/formula",
-        "not finite",
-        "Newton",
-        "Krylov",
-        "retries",
-        "halved",
-        "safe",
-        "s",
-    ]);
-    for row in &result.rows {
-        let trial = &row.trial;
-        let stats = &trial.stats;
-        let ending = match &row.remedy {
-            None => trial.ending.text(),
-            Some(remedy) => format!("{}; {remedy}", trial.ending.text()),
-        };
-        table.rows.push(vec![
-            row.group.clone(),
-            row.name.clone(),
-            ending,
-            trial.steps.to_string(),
-            figure(Some(trial.residual)),
-            figure(Some(trial.load_error)),
-            figure(Some(trial.mass_error)),
-            figure(Some(trial.p_min)),
-            figure(Some(trial.p_max)),
-            figure(Some(trial.h_min_nm)),
-            figure(trial.film_ratio),
-            trial.not_finite.to_string(),
-            stats.newton_iterations.to_string(),
-            stats.linear_iterations.to_string(),
-            stats.retries.to_string(),
-            stats.halved.to_string(),
-            stats.safer.to_string(),
-            figure(Some(trial.seconds)),
-        ]);
-    }
-    table
-}
-
-/// The whole report as Markdown.
-pub fn stability_text(result: &Stability) -> String {
+/// The cases, then the long run.
+pub fn stability_report(result: &Stability) -> Report {
+    let columns: [(&str, fn(&StabilityRow) -> String); 18] = [
+        ("group", |row| row.group.clone()),
+        ("case", |row| row.name.clone()),
+        ("ending", |row| row.trial.ending.text()),
+        ("steps", |row| row.trial.steps.to_string()),
+        ("residual", |row| figure(Some(row.trial.residual))),
+        ("load error", |row| figure(Some(row.trial.load_error))),
+        ("mass error", |row| figure(Some(row.trial.mass_error))),
+        ("p min/p_h", |row| figure(Some(row.trial.p_min))),
+        ("p max/p_h", |row| figure(Some(row.trial.p_max))),
+        ("h min, nm", |row| figure(Some(row.trial.h_min_nm))),
+        ("h_c/formula", |row| figure(row.trial.film_ratio)),
+        ("not finite", |row| row.trial.not_finite.to_string()),
+        ("Newton", |row| {
+            row.trial.stats.newton_iterations.to_string()
+        }),
+        ("Krylov", |row| {
+            row.trial.stats.linear_iterations.to_string()
+        }),
+        ("retries", |row| row.trial.stats.retries.to_string()),
+        ("halved", |row| row.trial.stats.halved.to_string()),
+        ("safe", |row| row.trial.stats.safer.to_string()),
+        ("s", |row| figure(Some(row.trial.seconds))),
+    ];
+    let table = MarkdownTable::of(&result.rows, &columns);
     let mut text = String::new();
     let all = result.rows.len();
     if all > 0 {
-        text.push_str(&stability_table(result).markdown());
-        let _ = writeln!(
-            text,
-            "\n{} of {all} cases converged on {n}² ({:.0} %), {} failed by name, {} quietly.",
+        text = format!(
+            "{}\n{} of {all} cases converged on {n}² ({:.0} %), {} failed by name, {} quietly.\n",
+            table.markdown(),
             result.converged(),
             100.0 * result.converged() as f64 / all as f64,
             all - result.converged() - result.quiet(),
@@ -203,5 +163,11 @@ pub fn stability_text(result: &Stability) -> String {
     if result.drift.steps > 0 {
         let _ = writeln!(text, "\nLong run: {}.", result.drift.text());
     }
-    text
+    Report {
+        title: "Stability",
+        text,
+        table,
+        plots: Vec::new(),
+        passes: result.passes(),
+    }
 }

@@ -1,11 +1,9 @@
 //! The same run twice: as planned, and with one stage forced in.
 
-use std::time::Instant;
-
 use super::force::Forced;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::Scene;
-use asperity_engine::sim::{Frame, Simulation, Stage, Stats};
+use asperity_engine::sim::{Frame, Simulation, Stage};
 use asperity_engine::solve::stress::{StressEngine, StressSpec, Symmetry};
 
 /// Film that counts as one, m: the solver's own least film.
@@ -15,17 +13,6 @@ const LEAST_FILM_M: f64 = 1e-9;
 pub(super) struct Ran {
     frame: Frame,
     stress_factor: Option<f64>,
-    stats: Stats,
-    pub(super) seconds: f64,
-    timing: Timing,
-}
-
-/// How a run is made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Timing {
-    pub(super) threads: usize,
-    /// Whether its time is told: then a short run is made twice, and the faster counts. They are alike in all but time.
-    pub(super) is_timed: bool,
 }
 
 /// How a run's frames are filled.
@@ -56,28 +43,15 @@ impl Difference {
     }
 }
 
-/// A stage of a preset: what leaving it out saves.
+/// A stage of a scene: what leaving it out changes.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PruningRow {
     /// Preset.
     pub(super) preset: String,
     /// Stage.
     pub(super) stage: Forced,
-    /// What it changes and costs, or why the run with it did not finish.
-    pub(super) found: Result<Gain, String>,
-}
-
-/// What a stage that is left out would change and cost.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Gain {
-    /// What it changes.
-    pub(super) difference: Difference,
-    /// Time with the stage over time without.
-    pub(super) time_ratio: f64,
-    /// Linear iterations with over without.
-    pub(super) work_ratio: f64,
-    /// Transforms with over without.
-    pub(super) transform_ratio: f64,
+    /// What it changes, or why the run with it did not finish.
+    pub(super) found: Result<Difference, String>,
 }
 
 impl PruningRow {
@@ -85,13 +59,13 @@ impl PruningRow {
     pub(super) fn is_harmless(&self) -> bool {
         self.found
             .as_ref()
-            .is_ok_and(|gain| gain.difference.greatest() <= self.stage.allowed().0)
+            .is_ok_and(|difference| difference.greatest() <= self.stage.allowed().0)
     }
 }
 
 /// The run as planned.
-pub(super) fn plain(scene: &Scene, plan: &Plan, timing: Timing) -> Result<Ran, String> {
-    run(scene, plan, timing, cadence(plan))
+pub(super) fn plain(scene: &Scene, plan: &Plan) -> Result<Ran, String> {
+    run(scene, plan, cadence(plan))
 }
 
 fn cadence(plan: &Plan) -> Frames {
@@ -120,12 +94,12 @@ pub(super) fn forced(
         } else {
             cadence(plan)
         };
-        let mut other = run(&other_scene, &other_plan, base.timing, frames);
+        let mut other = run(&other_scene, &other_plan, frames);
         if let (Forced::Waves, Ok(other)) = (stage, &mut other) {
             // Crests of no height still count, and may make the other body the weaker one.
             other.stress_factor = None;
         }
-        other.map(|other| gain(base, &other, least_m))
+        other.map(|other| difference(base, &other, least_m))
     };
     Some(PruningRow {
         preset: preset.to_owned(),
@@ -134,32 +108,9 @@ pub(super) fn forced(
     })
 }
 
-fn gain(base: &Ran, other: &Ran, least_m: f64) -> Gain {
-    let ratio = |with: u64, without: u64| with as f64 / without.max(1) as f64;
-    Gain {
-        difference: difference(base, other, least_m),
-        time_ratio: other.seconds / base.seconds,
-        work_ratio: ratio(other.stats.linear_iterations, base.stats.linear_iterations),
-        transform_ratio: ratio(other.stats.ffts, base.stats.ffts),
-    }
-}
-
-fn run(scene: &Scene, plan: &Plan, timing: Timing, frames: Frames) -> Result<Ran, String> {
-    /// s.
-    const SHORT: f64 = 0.5;
-    let one = run_once(scene, plan, timing, frames)?;
-    if !timing.is_timed || one.seconds > SHORT {
-        return Ok(one);
-    }
-    let two = run_once(scene, plan, timing, frames)?;
-    Ok(if two.seconds < one.seconds { two } else { one })
-}
-
-fn run_once(scene: &Scene, plan: &Plan, timing: Timing, frames: Frames) -> Result<Ran, String> {
-    let mut sim =
-        Simulation::new(scene, plan.clone(), timing.threads).map_err(|error| error.to_string())?;
+fn run(scene: &Scene, plan: &Plan, frames: Frames) -> Result<Ran, String> {
+    let mut sim = Simulation::new(scene, plan.clone(), 1).map_err(|error| error.to_string())?;
     let mut frame = Frame::default();
-    let clock = Instant::now();
     while !sim.is_done() {
         sim.step().map_err(|error| error.to_string())?;
         if let Frames::Every(every) = frames
@@ -169,14 +120,10 @@ fn run_once(scene: &Scene, plan: &Plan, timing: Timing, frames: Frames) -> Resul
             sim.fill(&mut frame);
         }
     }
-    let seconds = clock.elapsed().as_secs_f64();
     sim.fill(&mut frame);
     Ok(Ran {
         frame,
         stress_factor: sim.summary().stress_factor,
-        stats: *sim.stats(),
-        seconds,
-        timing,
     })
 }
 
@@ -205,12 +152,10 @@ fn difference(one: &Ran, two: &Ran, least_m: f64) -> Difference {
     }
 }
 
-/// The life integral of the last pressure with all waves in every layer against the truncated one: relative
-/// difference in the integral, and time of the one over the other.
-fn deep_waves(scene: &Scene, plan: &Plan, base: &Ran) -> Result<Gain, String> {
+/// The life integral of the last pressure with all waves in every layer against the truncated one.
+fn deep_waves(scene: &Scene, plan: &Plan, base: &Ran) -> Result<Difference, String> {
     /// ε that keeps what single precision can hold.
     const ALL_WAVES: f64 = 1e-8;
-    const REPEATS: u32 = 4;
     let frame = &base.frame;
     let (p_h, a_m) = (frame.p_hertz_pa as f32, frame.a_m);
     let p: Vec<f32> = frame.pressure_pa.iter().map(|p| p / p_h).collect();
@@ -226,26 +171,16 @@ fn deep_waves(scene: &Scene, plan: &Plan, base: &Ran) -> Result<Gain, String> {
         .life
         .as_ref()
         .map_or(10.0, |life| life.stress_exponent * life.weibull_slope);
-    let mut measured = [(0.0, f64::INFINITY); 2];
-    for (slot, decay) in measured.iter_mut().zip([StressSpec::DECAY, ALL_WAVES]) {
+    let mut ln_integral = |decay: f64| {
         spec.decay = decay;
         let mut engine = StressEngine::new(&spec).map_err(|error| error.to_string())?;
         engine.load(&p, None);
-        for _ in 0..REPEATS {
-            let clock = Instant::now();
-            let ln = engine.volume(exponent).normal.ln;
-            *slot = (ln, slot.1.min(clock.elapsed().as_secs_f64()));
-        }
-    }
-    let [(truncated, quick), (whole, slow)] = measured;
-    Ok(Gain {
-        difference: Difference {
-            pressure: 0.0,
-            film: 0.0,
-            life: Some((truncated - whole).abs()),
-        },
-        time_ratio: slow / quick,
-        work_ratio: 1.0,
-        transform_ratio: 1.0,
+        Ok::<f64, String>(engine.volume(exponent).normal.ln)
+    };
+    let (truncated, whole) = (ln_integral(StressSpec::DECAY)?, ln_integral(ALL_WAVES)?);
+    Ok(Difference {
+        pressure: 0.0,
+        film: 0.0,
+        life: Some((truncated - whole).abs()),
     })
 }

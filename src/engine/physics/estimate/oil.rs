@@ -1,9 +1,9 @@
 //! The oil's part of the estimate: film by regression, and the friction of the film.
 
 use crate::physics::film_regression::nijenbanning_central_m;
-use crate::physics::fluid::Viscosity;
+use crate::physics::fluid::{Rheology, ViscosityLaw};
 use crate::physics::groups;
-use crate::physics::hertz::HertzShape;
+use crate::physics::hertz::ContactKind;
 use crate::physics::line::LinePoint;
 
 /// The oil's part: what the film regressions need, at any load and speed.
@@ -20,10 +20,12 @@ pub enum FilmBasis {
 pub struct OilBasis {
     /// For film, M and L.
     pub film: FilmBasis,
-    /// Whether viscosity follows Roelands; else Barus.
-    pub roelands: bool,
-    /// Eyring stress, Pa; `None`: Newtonian.
-    pub eyring_pa: Option<f64>,
+    /// Viscosity law.
+    pub viscosity_law: ViscosityLaw,
+    /// Shear law.
+    pub rheology: Rheology,
+    /// Eyring stress, Pa.
+    pub eyring_pa: f64,
     /// Limiting shear stress over pressure.
     pub limit: f64,
     /// Film at or below which a spot is in contact, m.
@@ -57,28 +59,22 @@ impl FilmBasis {
 }
 
 impl OilBasis {
-    /// Friction coefficient of a film at the mean Hertz pressure; `p_hertz_pa` and the film, m, in one.
+    /// Friction coefficient of a film at the mean Hertz pressure.
     pub(super) fn friction(
         &self,
-        shape: HertzShape,
-        (p_hertz_pa, film_m): (f64, f64),
+        shape: ContactKind,
+        p_hertz_pa: f64,
+        film_m: f64,
         sliding_m_s: f64,
     ) -> f64 {
         let mean = match shape {
-            HertzShape::Point => 2.0 / 3.0,
-            HertzShape::Line => std::f64::consts::FRAC_PI_4,
+            ContactKind::Point => 2.0 / 3.0,
+            ContactKind::Line => std::f64::consts::FRAC_PI_4,
         };
         let (viscosity_pa_s, alpha_per_pa) = self.film.viscosity();
-        let law = if self.roelands {
-            Viscosity::roelands(viscosity_pa_s, alpha_per_pa, p_hertz_pa)
-        } else {
-            Viscosity::barus(alpha_per_pa, p_hertz_pa)
-        };
-        let newtonian = viscosity_pa_s * law.ln_eta(mean).0.exp() * sliding_m_s / film_m;
-        let shear = match self.eyring_pa {
-            Some(tau) => tau * (newtonian / tau).asinh(),
-            None => newtonian,
-        };
-        (shear / (mean * p_hertz_pa)).min(self.limit)
+        let law = (self.viscosity_law).scaled(viscosity_pa_s, alpha_per_pa, p_hertz_pa);
+        let newtonian_pa = viscosity_pa_s * law.ln_eta(mean).0.exp() * sliding_m_s / film_m;
+        let shear_pa = self.rheology.shear_pa(newtonian_pa, self.eyring_pa);
+        (shear_pa / (mean * p_hertz_pa)).min(self.limit)
     }
 }

@@ -1,13 +1,14 @@
 //! Where each panel is on a screen of any size.
 
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Constraint, Layout, Margin, Position, Rect};
 
 use crate::tui::app::PanelKind;
+use crate::tui::view::place::{columns, columns_from, rows_from};
 
-/// Least size of the screen, columns and rows.
-pub const LEAST: (u16, u16) = (60, 20);
-/// Least size of a narrower one: a phone held upright.
-pub const LEAST_NARROW: (u16, u16) = (40, 30);
+/// Minimum size of the screen, columns and rows.
+pub const MIN_SCREEN: (u16, u16) = (60, 20);
+/// Minimum size of a narrower one: a phone held upright.
+pub const MIN_NARROW_SCREEN: (u16, u16) = (40, 30);
 
 /// How much room there is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,24 +17,6 @@ pub enum PanelSpacing {
     Compact,
     /// Panels have a frame.
     Full,
-}
-
-/// Whether words take a few rows under the top line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Banner {
-    /// They do not.
-    None,
-    /// A lesson or a script says something that takes so many rows.
-    Caption(u16),
-}
-
-impl Banner {
-    fn rows(self) -> u16 {
-        match self {
-            Self::None => 0,
-            Self::Caption(rows) => rows.min(MOST_WORDS),
-        }
-    }
 }
 
 /// Where the panels are.
@@ -64,12 +47,13 @@ pub struct Areas {
 }
 
 impl Areas {
-    /// The panels on a screen; `None` where it is too small.
-    pub fn of(screen: Rect, banner: Banner) -> Option<Self> {
-        if screen.width < LEAST.0 {
-            return Self::narrow(screen, banner);
+    /// The panels on a screen, with so many rows of a caption under the top line; `None` where it is too small.
+    pub fn of(screen: Rect, caption_rows: u16) -> Option<Self> {
+        let caption_rows = caption_rows.min(MAX_CAPTION_ROWS);
+        if screen.width < MIN_SCREEN.0 {
+            return Self::narrow(screen, caption_rows);
         }
-        if screen.height < LEAST.1 {
+        if screen.height < MIN_SCREEN.1 {
             return None;
         }
         let density = if screen.width >= 110 && screen.height >= 32 {
@@ -77,92 +61,96 @@ impl Areas {
         } else {
             PanelSpacing::Compact
         };
-        let (left, right) = side_widths(screen.width, density);
-        let caption_rows = banner.rows();
         let (point_rows, status_rows) = match density {
             // Six rows for the trace, its title and its ticks, once the life has its own.
             PanelSpacing::Compact => {
-                let free = screen
-                    .height
-                    .saturating_sub(1 + caption_rows + 2 + LIFE_ROWS);
-                (free.clamp(5, 8), 2)
+                let taken = 1 + caption_rows + 2 + LIFE_ROWS;
+                (screen.height.saturating_sub(taken).clamp(5, 8), 2)
             }
             PanelSpacing::Full => ((screen.height / 5 + 1).clamp(9, 12), 3),
         };
         let body_rows = screen.height - 1 - caption_rows - point_rows - status_rows;
+        let heights = [1, caption_rows, body_rows, point_rows, status_rows];
+        let [header, caption, body, point, status] =
+            Layout::vertical(heights.map(Constraint::Length)).areas(screen);
+        let (left, right) = side_widths(screen.width, density);
         let gap = u16::from(density == PanelSpacing::Compact);
-        let middle = screen.width - left - right - 2 * gap;
+        let [knobs, centre, life] = Layout::horizontal([
+            Constraint::Length(left),
+            Constraint::Fill(1),
+            Constraint::Length(right),
+        ])
+        .spacing(gap)
+        .areas(body);
         let map_rows = (body_rows * 57).div_ceil(100);
-        let top = screen.y + 1 + caption_rows;
-        let centre = screen.x + left + gap;
-        let below = top + body_rows;
+        let [map, centre_line] =
+            Layout::vertical([Constraint::Length(map_rows), Constraint::Fill(1)]).areas(centre);
         Some(Self {
             density,
-            header: Rect::new(screen.x, screen.y, screen.width, 1),
-            caption: Rect::new(screen.x, screen.y + 1, screen.width, caption_rows),
-            knobs: Rect::new(screen.x, top, left, body_rows),
-            map: Rect::new(centre, top, middle, map_rows),
-            centre_line: Rect::new(centre, top + map_rows, middle, body_rows - map_rows),
-            life: Rect::new(centre + middle + gap, top, right, body_rows),
-            point: Rect::new(screen.x, below, screen.width, point_rows),
-            status: Rect::new(screen.x, below + point_rows, screen.width, status_rows),
+            header,
+            caption,
+            knobs,
+            map,
+            centre_line,
+            life,
+            point,
+            status,
             frozen: Rect::default(),
             is_narrow: false,
         })
     }
 
     /// One picture, life and knobs, one below the other.
-    fn narrow(screen: Rect, banner: Banner) -> Option<Self> {
+    fn narrow(screen: Rect, caption_rows: u16) -> Option<Self> {
         /// Rows of the sentence on a knob, of the run's state, and of the keys.
         const STATUS: u16 = 3;
-        if screen.width < LEAST_NARROW.0 || screen.height < LEAST_NARROW.1 {
+        if screen.width < MIN_NARROW_SCREEN.0 || screen.height < MIN_NARROW_SCREEN.1 {
             return None;
         }
-        let caption_rows = banner.rows();
         let body_rows = screen.height - 1 - caption_rows - STATUS;
         // Three rows a knob are a finger's width; two where rows are few.
         let knob_rows = if body_rows >= 36 { 16 } else { 11 };
         let life_rows = ((body_rows - knob_rows) * 2 / 5).clamp(5, LIFE_ROWS);
         let map_rows = body_rows - knob_rows - life_rows;
-        let mut next = screen.y;
-        let mut rows = |height: u16| {
-            next += height;
-            Rect::new(screen.x, next - height, screen.width, height)
-        };
+        let heights = [1, caption_rows, map_rows, life_rows, knob_rows, STATUS];
+        let [header, caption, map, life, knobs, status] =
+            Layout::vertical(heights.map(Constraint::Length)).areas(screen);
         Some(Self {
             density: PanelSpacing::Compact,
-            header: rows(1),
-            caption: rows(caption_rows),
-            map: rows(map_rows),
-            life: rows(life_rows),
-            knobs: rows(knob_rows),
-            status: rows(STATUS),
+            header,
+            caption,
+            map,
+            life,
+            knobs,
+            status,
             centre_line: Rect::default(),
             point: Rect::default(),
             frozen: Rect::default(),
             is_narrow: true,
         })
     }
-}
 
-impl Areas {
+    /// The room inside a panel's frame.
+    pub(super) fn inside(&self, panel: PanelKind) -> Rect {
+        let area = self.of_panel(panel);
+        match self.density {
+            PanelSpacing::Compact => rows_from(area, 1),
+            PanelSpacing::Full => area.inner(Margin::new(1, 1)),
+        }
+    }
+
     /// The same, on a narrow screen with another picture than the map.
     #[must_use]
-    pub(super) fn with_picture(self, panel: PanelKind) -> Self {
-        let none = Rect::default();
-        match panel {
-            PanelKind::CentreLine if self.is_narrow => Self {
-                centre_line: self.map,
-                map: none,
-                ..self
-            },
-            PanelKind::Point if self.is_narrow => Self {
-                point: self.map,
-                map: none,
-                ..self
-            },
-            _ => self,
+    pub(super) fn with_picture(mut self, panel: PanelKind) -> Self {
+        let place = match panel {
+            PanelKind::CentreLine => &mut self.centre_line,
+            PanelKind::Point => &mut self.point,
+            PanelKind::Knobs | PanelKind::Map | PanelKind::Life => return self,
+        };
+        if self.is_narrow {
+            *place = std::mem::take(&mut self.map);
         }
+        self
     }
 
     /// The same screen with one panel in place of all.
@@ -201,13 +189,9 @@ impl Areas {
     #[must_use]
     pub(super) fn with_two_maps(mut self) -> Self {
         let half = self.map.width / 2;
-        if half >= LEAST_MAP {
-            self.frozen = Rect {
-                width: half,
-                ..self.map
-            };
-            self.map.x += half;
-            self.map.width -= half;
+        if half >= MIN_MAP_COLUMNS {
+            self.frozen = columns(self.map, 0, half);
+            self.map = columns_from(self.map, half);
         }
         self
     }
@@ -232,9 +216,9 @@ impl Areas {
 }
 
 /// Columns in which a map can be read.
-const LEAST_MAP: u16 = 26;
+const MIN_MAP_COLUMNS: u16 = 26;
 /// Rows of a caption, its title included.
-const MOST_WORDS: u16 = 6;
+const MAX_CAPTION_ROWS: u16 = 6;
 /// Rows that the life and its factors take.
 const LIFE_ROWS: u16 = 13;
 

@@ -1,15 +1,15 @@
 //! Under the top line: what a lesson, or the scene's script, says now.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::style::Style;
+use ratatui::layout::{Margin, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use crate::tui::app::App;
 use crate::tui::lessons::{Beat, Claim, FoundAnswer, LessonQuestion, TourPhase, TourState};
 use crate::tui::theme::Role;
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::chart::Symbol;
+use crate::tui::view::place::{columns, put, put_right, rows_from};
 
 /// Words to show.
 pub(super) struct Caption {
@@ -108,10 +108,11 @@ fn verdict(
     let is = format!("{name} {value}, \u{201c}{}\u{201d}.", answer(right));
     match tour.said {
         Some(said) if said == right => (format!("Right: {is}"), Role::Good),
-        Some(said) => (
-            format!("You said \u{201c}{}\u{201d}; it is {is}", answer(said)),
-            Role::Warn,
-        ),
+        Some(said) => {
+            let said = answer(said);
+            let text = format!("You said \u{201c}{said}\u{201d}; it is {is}");
+            (text, Role::Warn)
+        }
         None => (format!("It is {is}"), Role::Strong),
     }
 }
@@ -160,46 +161,24 @@ fn scripted(app: &App) -> Option<&str> {
 
 pub(super) fn render(app: &App, caption: &Caption, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
-    for row in 0..area.height {
-        put(
-            area,
-            row,
-            &Line::styled(theme.pick("▌", "|"), theme.style(Role::Key)),
-            buffer,
-        );
-    }
-    let text = Rect {
-        x: area.x + 2,
-        width: area.width.saturating_sub(4),
-        ..area
-    };
-    let hint = Line::styled(caption.hint, theme.style(Role::Dim));
-    let title = Span::styled(ascii_text(theme, &caption.title), theme.style(Role::Key));
-    let beside = Rect {
-        width: text.width.saturating_sub(hint.width() as u16),
-        ..text
-    };
-    let figures = Span::styled(
-        ascii_text(theme, &caption.figures),
-        theme.style(Role::Strong),
-    );
+    let edge = Symbol::new(theme, "▌", "|", Role::Key);
+    area.rows()
+        .for_each(|row| edge.draw(row.as_position(), buffer));
+    let text = area.inner(Margin::new(2, 0));
+    let hint = theme.line(caption.hint, Role::Dim);
+    let title = theme.span(&caption.title, Role::Key);
+    let figures = theme.span(&caption.figures, Role::Strong);
+    let beside = columns(text, 0, text.width.saturating_sub(hint.width() as u16));
     put(beside, 0, &Line::from(vec![title, figures]), buffer);
     put_right(text, 0, &hint, buffer);
-    let below = Rect {
-        y: text.y + 1,
-        height: text.height.saturating_sub(1),
-        ..text
-    };
-    let mut spans = Vec::new();
-    for (text, role) in &caption.words {
-        let style = match role {
-            Role::Text => Style::default(),
-            other => theme.style(*other),
+    let words = caption.words.iter().flat_map(|(text, role)| {
+        let words = match role {
+            Role::Text => Span::raw(theme.words(text)),
+            role => theme.span(text, *role),
         };
-        spans.push(Span::styled(ascii_text(theme, text), style));
-        spans.push(Span::raw(" "));
-    }
-    Paragraph::new(Line::from(spans))
+        [words, Span::raw(" ")]
+    });
+    Paragraph::new(words.collect::<Line<'_>>())
         .wrap(Wrap { trim: true })
-        .render(below, buffer);
+        .render(rows_from(text, 1), buffer);
 }

@@ -9,8 +9,10 @@ use crate::tui::app::{App, PanelKind, Zoom};
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
-use crate::tui::view::chart::{CurvePanel, Pen};
-use crate::tui::view::{Areas, ascii_text, panel, put, put_right, title};
+use crate::tui::view::areas::Areas;
+use crate::tui::view::chart::{CurvePanel, Pen, Plot};
+use crate::tui::view::panel::{panel, title};
+use crate::tui::view::place::{columns, columns_from, put, put_right, rows};
 use asperity_engine::sim::Frame;
 
 /// Columns of the numbers on either side.
@@ -28,15 +30,17 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
     if inner.height < 3 || inner.width < 2 * AXIS + 8 {
         return None;
     }
-    let plot = Rect {
-        x: inner.x + AXIS,
-        width: inner.width - 2 * AXIS,
-        height: inner.height - 1,
-        ..inner
+    let plot = Plot {
+        area: columns(
+            rows(inner, 0, inner.height - 1),
+            AXIS,
+            inner.width - 2 * AXIS,
+        ),
+        x: x_range(app, frame),
+        y: [0.0, 1.0],
     };
-    let x = x_range(app, frame);
-    let curves = curves(app, frame, plot, x, buffer);
-    axes(app, inner, plot, x, buffer);
+    let curves = curves(app, frame, plot, buffer);
+    axes(app, inner, &plot, buffer);
     curves
 }
 
@@ -49,13 +53,15 @@ fn heading(app: &App, areas: &Areas) -> Line<'static> {
         _ => "centre line",
     };
     let mut line = title(theme, "", name);
-    let entry = |mark: &'static str, text: &'static str, role: Role| {
-        Span::styled(format!("{mark}{text} "), theme.style(role))
-    };
-    line.push_span(entry(theme.pick("━", "p "), "pressure", Role::Pressure));
     let film = if theme.is_mono() { "╌" } else { "━" };
-    line.push_span(entry(theme.pick(film, "h "), "film", Role::Film));
-    line.push_span(entry(theme.pick("┄", ". "), "Hertz", Role::Hertz));
+    for (mark, plain, text, role) in [
+        ("━", "p ", "pressure", Role::Pressure),
+        (film, "h ", "film", Role::Film),
+        ("┄", ". ", "Hertz", Role::Hertz),
+    ] {
+        let mark = theme.pick(mark, plain);
+        line.push_span(Span::styled(format!("{mark}{text} "), theme.style(role)));
+    }
     line
 }
 
@@ -68,25 +74,11 @@ fn x_range(app: &App, frame: &Frame) -> [f64; 2] {
     }
 }
 
-fn curves(
-    app: &App,
-    frame: &Frame,
-    plot: Rect,
-    x: [f64; 2],
-    buffer: &mut Buffer,
-) -> Option<PixelPlot> {
-    let theme = app.theme;
-    let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
+fn curves(app: &App, frame: &Frame, plot: Plot, buffer: &mut Buffer) -> Option<PixelPlot> {
+    let pen = |role: Role, letter: char| Pen::new(app.theme, role, letter);
     let hertz = frame.p_hertz_pa / app.reached.pressure_pa.max(1.0);
-    let mut chart = CurvePanel::of(app, plot, x, [0.0, 1.0]);
-    let fine = usize::from(plot.width) * 2;
-    chart.scatter(
-        (0..=fine).filter_map(|i| {
-            let x = x[0] + (x[1] - x[0]) * i as f64 / fine as f64;
-            (x.abs() < 1.0).then(|| (x, hertz * (1.0 - x * x).sqrt()))
-        }),
-        pen(Role::Hertz, '.'),
-    );
+    let mut chart = CurvePanel::new(plot);
+    chart.hertz(hertz, pen(Role::Hertz, '.'));
     let film = row(frame, &frame.film_m, app.reached.film_m);
     chart.line(film, pen(Role::Film, 'h'));
     let pressure = row(frame, &frame.pressure_pa, app.reached.pressure_pa);
@@ -94,7 +86,7 @@ fn curves(
     if let Some(point) = &frame.material_point {
         chart.upright(point.x_m / frame.a_m, pen(Role::Dim, ':'));
     }
-    chart.render(theme.is_ascii(), buffer)
+    chart.render(app, buffer)
 }
 
 /// The middle row of a field: x/a and the value over the range's end.
@@ -116,77 +108,29 @@ fn row<'a>(
     })
 }
 
-fn axes(app: &App, inner: Rect, plot: Rect, x: [f64; 2], buffer: &mut Buffer) {
+/// Pressure at the left, film at the right, x/a below.
+fn axes(app: &App, inner: Rect, plot: &Plot, buffer: &mut Buffer) {
     let theme = app.theme;
     let (pressure, film) = (app.units.pressure(), app.units.film());
-    let left = Rect {
-        width: AXIS - 1,
-        ..inner
-    };
-    let right = Rect {
-        x: plot.right() + 1,
-        width: AXIS - 1,
-        ..inner
-    };
-    let foot = plot.height - 1;
-    for (row, part) in ticks(plot.height) {
-        let p = tick(pressure.of(app.reached.pressure_pa * part));
-        put_right(
-            left,
-            row,
-            &Line::styled(p, theme.style(Role::Pressure)),
-            buffer,
-        );
-        let h = tick(film.of(app.reached.film_m * part));
-        put(
-            right,
-            row,
-            &Line::styled(h, theme.style(Role::Film)),
-            buffer,
-        );
-    }
-    let name = |text: &str, role| Line::styled(ascii_text(theme, text), theme.style(role));
-    put_right(left, foot + 1, &name(pressure.name, Role::Pressure), buffer);
-    put(right, foot + 1, &name(film.name, Role::Film), buffer);
-    let along = Rect {
-        y: plot.bottom(),
-        height: 1,
-        ..plot
-    };
-    for mark in [-2.0, -1.0, 0.0, 1.0] {
-        let part = (mark - x[0]) / (x[1] - x[0]);
-        if !(0.0..=1.0).contains(&part) {
-            continue;
-        }
-        let text = if mark == 0.0 {
-            "0".to_owned()
-        } else {
-            format!("{mark:.0}a")
-        };
-        let column = (part * f64::from(plot.width - 1)) as u16;
-        let column = column
-            .saturating_sub(text.len() as u16 / 2)
-            .min(plot.width.saturating_sub(text.len() as u16));
-        let at = Rect {
-            x: along.x + column,
-            width: text.len() as u16,
-            ..along
-        };
-        put(at, 0, &Line::styled(text, theme.style(Role::Dim)), buffer);
-    }
-}
-
-/// Rows that carry a number, with the part of the range they stand for.
-fn ticks(rows: u16) -> Vec<(u16, f64)> {
-    let last = rows - 1;
+    let left = columns(inner, 0, AXIS - 1);
+    let right = columns_from(inner, inner.width - AXIS + 1);
+    let last = plot.area.height - 1;
     // A number in the middle only where a row is in the middle.
-    let marks = if rows >= 7 && last.is_multiple_of(2) {
-        vec![0, last / 2, last]
-    } else {
-        vec![0, last]
-    };
-    marks
-        .into_iter()
-        .map(|row| (row, 1.0 - f64::from(row) / f64::from(last.max(1))))
-        .collect()
+    let has_middle = plot.area.height >= 7 && last.is_multiple_of(2);
+    let middle = has_middle.then_some((last / 2, 0.5));
+    for (row, part) in [(0, 1.0), (last, 0.0)].into_iter().chain(middle) {
+        let p = tick(pressure.of(app.reached.pressure_pa * part));
+        put_right(left, row, &theme.line(p, Role::Pressure), buffer);
+        let h = tick(film.of(app.reached.film_m * part));
+        put(right, row, &theme.line(h, Role::Film), buffer);
+    }
+    let foot = last + 1;
+    put_right(
+        left,
+        foot,
+        &theme.line(pressure.name, Role::Pressure),
+        buffer,
+    );
+    put(right, foot, &theme.line(film.name, Role::Film), buffer);
+    plot.half_widths(theme, plot.area.bottom(), buffer);
 }

@@ -1,7 +1,6 @@
 //! Right, below: a curve along S or the speed with the operating point on it, and the history of the estimate.
 
 mod along;
-mod history;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -11,73 +10,37 @@ use crate::tui::action::Action;
 use crate::tui::app::App;
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
-use crate::tui::view::chart::{CurvePanel, Pen};
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::chart::{CurvePanel, Pen, Plot, Symbol};
+use crate::tui::view::place::{columns_from, put, put_middle, put_right, rows, rows_from};
+use along::CurveFigure;
 
 /// Rows from which a curve can be read, with its heading and its axis.
 const CURVE_ROWS: u16 = 7;
-/// Columns of the numbers left of it.
-const AXIS: u16 = 5;
-
-/// x, y, and between which y it may lie.
-type Place = (f64, f64, Option<[f64; 2]>);
-
-/// A curve with its axes; places in the units of the axes.
-struct CurveFigure {
-    name: &'static str,
-    /// What a formula says; empty: there is none.
-    formula: Vec<(f64, f64)>,
-    /// What was simulated, with the ends of its band.
-    points: Vec<Place>,
-    /// Where the knob is.
-    knob: f64,
-    /// The number that leads now.
-    now: Option<f64>,
-    x: [f64; 2],
-    y: [f64; 2],
-    /// Numbers at the lower and upper end of y.
-    y_ends: [String; 2],
-    /// Words left, in the middle and right below the axis.
-    foot: [String; 3],
-}
 
 /// A press on a plot along S, or along the speed, puts that knob there.
 pub(super) fn pressed(app: &App, plot: Rect, at: Position) -> Option<Action> {
-    let figure = along::figure(app);
-    plot.contains(at).then(|| {
-        let part = f64::from(at.x - plot.x) / f64::from(plot.width.max(2) - 1);
-        let x = figure.x[0] + part * (figure.x[1] - figure.x[0]);
-        along::goes_to(app, x)
-    })
+    let x = along::figure(app).plot(plot).x_at(at.x);
+    plot.contains(at).then(|| along::goes_to(app, x))
 }
 
 /// Draws what there is room for; says where the curve's plot is, and what it leaves to a page.
 pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> (Option<Rect>, Vec<PixelPlot>) {
-    let below = |rows: u16, from: u16| Rect {
-        y: area.y + from,
-        height: rows,
-        ..area
+    let history_rows = match area.height {
+        0..2 => return (None, Vec::new()),
+        2..=CURVE_ROWS => area.height,
+        height if height < CURVE_ROWS + 5 => 0,
+        height => (height / 3).clamp(4, 8),
     };
-    let figure = || along::figure(app);
-    if area.height >= CURVE_ROWS + 5 {
-        let rows = (area.height / 3).clamp(4, 8);
-        let curve = area.height - rows - 1;
-        let history = history::render(app, below(rows, 1 + curve), buffer);
-        let (plot, curve) = draw(app, &figure(), below(curve, 1), buffer);
-        (Some(plot), history.into_iter().chain(curve).collect())
-    } else if area.height > CURVE_ROWS {
-        let (plot, curve) = draw(app, &figure(), below(area.height - 1, 1), buffer);
-        (Some(plot), curve.into_iter().collect())
-    } else if area.height >= 2 {
-        let history = history::render(app, area, buffer);
-        (None, history.into_iter().collect())
-    } else {
-        (None, Vec::new())
+    let curve_rows = area.height - history_rows;
+    let below = rows_from(area, curve_rows);
+    let left_to_page = history(app, below, buffer);
+    if curve_rows == 0 {
+        return (None, left_to_page.into_iter().collect());
     }
-}
-
-fn pen(app: &App, role: Role, letter: char) -> Pen {
-    Pen::new(app.theme, role, letter)
+    let figure = along::figure(app);
+    let (plot, curve) = draw(app, &figure, rows(area, 1, curve_rows - 1), buffer);
+    let plots = left_to_page.into_iter().chain(curve);
+    (Some(plot), plots.collect())
 }
 
 fn draw(
@@ -86,56 +49,42 @@ fn draw(
     area: Rect,
     buffer: &mut Buffer,
 ) -> (Rect, Option<PixelPlot>) {
+    /// Columns of the numbers left of it.
+    const AXIS: u16 = 5;
     let theme = app.theme;
+    let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     heading(app, figure, area, buffer);
-    let plot = Rect {
-        x: area.x + AXIS,
-        y: area.y + 1,
-        width: area.width.saturating_sub(AXIS),
-        height: area.height.saturating_sub(2),
-    };
-    let mut chart = CurvePanel::of(app, plot, figure.x, figure.y);
-    chart.upright(figure.knob, pen(app, Role::Dim, ':'));
-    chart.line(figure.formula.iter().copied(), pen(app, Role::Formula, '.'));
-    for &(x, _, band) in &figure.points {
-        let ends = band.into_iter().flatten().map(|y| (x, y));
-        chart.line(ends, pen(app, Role::Good, '|'));
+    let below = columns_from(rows_from(area, 1), AXIS);
+    let plot = figure.plot(rows(below, 0, below.height.saturating_sub(1)));
+    let mut chart = CurvePanel::new(plot);
+    chart.upright(figure.knob, pen(Role::Dim, ':'));
+    chart.line(figure.formula.iter().copied(), pen(Role::Formula, '.'));
+    for point in &figure.points {
+        let ends = point.band.into_iter().flatten().map(|y| (point.x, y));
+        chart.line(ends, pen(Role::Good, '|'));
     }
-    let curves = chart.render(theme.is_ascii(), buffer);
-    let simulated = theme.pick("•", "o");
-    for &(x, y, _) in &figure.points {
-        spot(app, figure, plot, (x, y), (simulated, Role::Good), buffer);
+    let curves = chart.render(app, buffer);
+    let simulated = Symbol::new(theme, "•", "o", Role::Good);
+    for point in &figure.points {
+        plot.mark(point.x, point.y, simulated, buffer);
     }
     if let Some(now) = figure.now {
-        let here = (theme.pick("◉", "O"), Role::Strong);
-        spot(app, figure, plot, (figure.knob, now), here, buffer);
+        let here = Symbol::new(theme, "◉", "O", Role::Strong);
+        plot.mark(figure.knob, now, here, buffer);
     }
-    axes(app, figure, area, plot, buffer);
-    (plot, curves)
-}
-
-/// A mark on a place, where that is in the plot.
-fn spot(
-    app: &App,
-    figure: &CurveFigure,
-    plot: Rect,
-    (x, y): (f64, f64),
-    (symbol, role): (&'static str, Role),
-    buffer: &mut Buffer,
-) {
-    let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
-    let (along, up) = (part(x, figure.x), part(y, figure.y));
-    if plot.is_empty() || !(0.0..=1.0).contains(&along) || !(0.0..=1.0).contains(&up) {
-        return;
+    plot.y_ends(theme, &figure.y_ends, "", buffer);
+    let foot = rows_from(below, plot.area.height);
+    let [from, middle, to] = figure
+        .foot
+        .each_ref()
+        .map(|text| theme.line(text, Role::Dim));
+    put(foot, 0, &from, buffer);
+    put_right(foot, 0, &to, buffer);
+    let beside = from.width().max(to.width());
+    if 2 * (beside + 1) + middle.width() <= usize::from(foot.width) {
+        put_middle(foot, 0, &middle, buffer);
     }
-    let cells = |part: f64, cells: u16| (part * f64::from(cells - 1)).round() as u16;
-    let at = (
-        plot.x + cells(along, plot.width),
-        plot.y + cells(1.0 - up, plot.height),
-    );
-    if let Some(cell) = buffer.cell_mut(at) {
-        cell.set_symbol(symbol).set_style(app.theme.style(role));
-    }
+    (plot.area, curves)
 }
 
 /// Its name and what the marks mean, and how far a sweep is: in the corner, or below it.
@@ -143,14 +92,14 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let legend = |words: [&'static str; 2]| {
         let mut spans = vec![
-            Span::styled("y ", theme.style(Role::Key)),
-            Span::styled(format!("{} ", figure.name), theme.style(Role::Title)),
+            theme.span("y ", Role::Key),
+            theme.span(format!("{} ", figure.name), Role::Title),
         ];
         let marks = [("┄ ", ". ", Role::Formula), ("• ", "o ", Role::Good)];
         for ((mark, plain, role), word) in marks.into_iter().zip(words) {
             if role != Role::Formula || !figure.formula.is_empty() {
-                spans.push(Span::styled(theme.pick(mark, plain), theme.style(role)));
-                spans.push(Span::styled(word, theme.style(Role::Dim)));
+                let mark = Span::styled(theme.pick(mark, plain), theme.style(role));
+                spans.extend([mark, theme.span(word, Role::Dim)]);
             }
         }
         Line::from(spans)
@@ -164,40 +113,42 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
     put(area, 0, &heading, buffer);
     let Some((done, all)) = app.sweep else { return };
     let text = format!("{}{done}/{all}", theme.pick("↻ ", "@ "));
-    let line = Line::styled(text, theme.style(Role::Warn));
+    let line = theme.line(text, Role::Warn);
     let has_room = (heading.width() + line.width()) as u16 <= area.width;
     put_right(area, u16::from(!has_room), &line, buffer);
 }
 
-fn axes(app: &App, figure: &CurveFigure, area: Rect, plot: Rect, buffer: &mut Buffer) {
-    let dim = app.theme.style(Role::Dim);
-    let word = |text: &str| Line::styled(ascii_text(app.theme, text), dim);
-    let left = Rect {
-        y: plot.y,
-        width: AXIS - 1,
-        height: plot.height,
-        ..area
-    };
-    put_right(left, 0, &word(&figure.y_ends[1]), buffer);
-    let last = plot.height.saturating_sub(1);
-    put_right(left, last, &word(&figure.y_ends[0]), buffer);
-    let foot = Rect {
-        y: plot.bottom(),
-        height: 1,
-        ..plot
-    };
-    let [from, middle, to] = figure.foot.each_ref().map(|text| word(text));
-    put(foot, 0, &from, buffer);
-    put_right(foot, 0, &to, buffer);
-    let width = middle.width() as u16;
-    let taken = (from.width() + to.width() + 2) as u16 + width;
-    if taken <= foot.width {
-        let start = (foot.width / 2).saturating_sub(width / 2);
-        let centred = Rect {
-            x: foot.x + start.max(from.width() as u16 + 1),
-            width,
-            ..foot
-        };
-        put(centred, 0, &middle, buffer);
+/// The estimate over the passages seen, the present on the right.
+fn history(app: &App, area: Rect, buffer: &mut Buffer) -> Option<PixelPlot> {
+    /// Half of the minimum range, decades: noise stays small.
+    const MIN_HALF: f64 = 0.17;
+    let theme = app.theme;
+    let (first, last) = (app.history.front()?, app.history.back()?);
+    let span = last.passages - first.passages;
+    let unit = if area.width >= 27 { " of 4a" } else { "" };
+    let heading = Line::from(vec![
+        theme.span("history ", Role::Title),
+        theme.span(format!("{span:.1} passages{unit}"), Role::Dim),
+    ]);
+    put(area, 0, &heading, buffer);
+    let area = rows_from(area, 1);
+    if span <= 0.0 || area.is_empty() {
+        return None;
     }
+    let samples = app.history.iter();
+    let points = samples.map(|sample| (sample.passages, sample.life_relative.log10()));
+    let decades = points.clone().map(|(_, decade)| decade);
+    let (low, high) = (
+        decades.clone().fold(f64::MAX, f64::min),
+        decades.fold(f64::MIN, f64::max),
+    );
+    let middle = 0.5 * (low + high);
+    let half = (0.55 * (high - low)).max(MIN_HALF);
+    let mut chart = CurvePanel::new(Plot {
+        area,
+        x: [first.passages, last.passages],
+        y: [middle - half, middle + half],
+    });
+    chart.line(points, Pen::new(theme, Role::Good, '*'));
+    chart.render(app, buffer)
 }

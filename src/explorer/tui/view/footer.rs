@@ -1,14 +1,15 @@
 //! The keys of the last line: what can be done now.
 
 use ratatui::layout::{Position, Rect};
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, ErrandKind, Overlay, PanelKind, RunPace};
 use crate::tui::choice::Form;
 use crate::tui::theme::Role;
 use crate::tui::units::bytes;
-use crate::tui::view::{Areas, ascii_text};
+use crate::tui::view::areas::Areas;
+use crate::tui::view::place::{columns, rows_from};
 use crate::tui::wiring::RecorderActivity;
 
 /// A key of the last line: what it is called, and what it asks for.
@@ -51,12 +52,8 @@ pub(super) fn hints_shown(app: &App, room: Rect) -> Vec<FooterKey> {
 /// A press on a key of the last line is that key.
 pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
     let recorder = recorder(app).width() as u16 + 1;
-    let room = Rect {
-        y: areas.status.bottom().saturating_sub(1),
-        height: 1,
-        width: areas.status.width.saturating_sub(recorder),
-        ..areas.status
-    };
+    let last = rows_from(areas.status, areas.status.height.saturating_sub(1));
+    let room = columns(last, 0, last.width.saturating_sub(recorder));
     if app.message().is_some() || !room.contains(at) {
         return None;
     }
@@ -73,7 +70,9 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
 fn left_out(app: &App, room: usize) -> String {
     let left_out = &app.setup.left_out;
     let stages: Vec<&str> = left_out.iter().map(|left| left.stage).collect();
-    let all = ascii_text(app.theme, &format!("not computed: {}", stages.join(", ")));
+    let all = app
+        .theme
+        .words(&format!("not computed: {}", stages.join(", ")));
     if all.chars().count() + 4 <= room {
         all
     } else {
@@ -86,17 +85,13 @@ fn hints(app: &App) -> Vec<FooterKey> {
     let key = FooterKey::new;
     let enter = app.theme.pick("⏎", "Enter");
     if app.is_typing() {
-        return vec![
-            key(enter, "set", Action::Enter),
-            key("Esc", "leave it", Action::Close),
-        ];
+        let leave = key("Esc", "leave it", Action::Close);
+        return vec![key(enter, "set", Action::Enter), leave];
     }
     match app.overlay {
         Overlay::Lessons => {
-            return vec![
-                key(enter, "begin", Action::Enter),
-                key("t", "close", Action::Lessons),
-            ];
+            let close = key("t", "close", Action::Lessons);
+            return vec![key(enter, "begin", Action::Enter), close];
         }
         Overlay::Scene => {
             let is_point = app.draft.as_ref().is_some_and(|d| d.form == Form::Point);
@@ -112,10 +107,8 @@ fn hints(app: &App) -> Vec<FooterKey> {
         Overlay::Help | Overlay::Plan => return vec![key("Esc", "close", Action::Close)],
         Overlay::None => {}
     }
-    let mut hints = vec![
-        key("?", "keys", Action::Help),
-        key("q", "quit", Action::Quit),
-    ];
+    let quit = key("q", "quit", Action::Quit);
+    let mut hints = vec![key("?", "keys", Action::Help), quit];
     if app.tour.is_some() {
         hints.push(key("n", "go on", Action::NextBeat));
         hints.push(key("N", "back", Action::PreviousBeat));
@@ -129,10 +122,9 @@ fn hints(app: &App) -> Vec<FooterKey> {
         (None, RunPace::Paused) => key("space", "go on", Action::TogglePause),
         (None, RunPace::Running) => key("space", "pause", Action::TogglePause),
     };
-    let pin = if app.pinned.is_some() {
-        "release"
-    } else {
-        "freeze"
+    let pin = match app.pinned {
+        Some(_) => "release",
+        None => "freeze",
     };
     let own = match app.focus {
         PanelKind::Knobs => key("=", "type", Action::Type),
@@ -154,9 +146,8 @@ fn hints(app: &App) -> Vec<FooterKey> {
 
 pub(super) fn recorder(app: &App) -> Line<'static> {
     let theme = app.theme;
-    let dim = theme.style(Role::Dim);
     let Some(recorder) = &app.status.recorder else {
-        return Line::styled("not recording ", dim);
+        return theme.line("not recording ", Role::Dim);
     };
     let (word, role) = match recorder.activity {
         RecorderActivity::Recording => (theme.pick("● rec ", "* rec "), Role::Pressure),
@@ -167,15 +158,7 @@ pub(super) fn recorder(app: &App) -> Line<'static> {
         0 => String::new(),
         skipped => format!("{skipped} skipped "),
     };
-    Line::from(vec![
-        Span::styled(word, theme.style(role)),
-        Span::styled(
-            format!(
-                "{} {} frames {skipped}",
-                bytes(recorder.bytes),
-                recorder.frames
-            ),
-            dim,
-        ),
-    ])
+    let written = bytes(recorder.bytes);
+    let words = format!("{written} {} frames {skipped}", recorder.frames);
+    Line::from(vec![theme.span(word, role), theme.span(words, Role::Dim)])
 }

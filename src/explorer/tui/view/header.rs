@@ -2,13 +2,13 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::app::{App, RunPace};
 use crate::tui::dial::Dial;
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::place::{columns, put, put_right, whole_words};
 use crate::tui::wiring::Health;
 use asperity_engine::physics::estimate::speed_ratios;
 use asperity_engine::sim::{LubricationRegime, Stage, named};
@@ -20,24 +20,13 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let room = area.width.saturating_sub(numbers.width() as u16 + 1);
     let (mark, word, role) = state(app);
     let mut left = Line::from(vec![
-        Span::styled(" asperity ", theme.style(Role::Title)),
-        Span::styled(format!("{mark}{word} "), theme.style(role)),
+        theme.span(" asperity ", Role::Title),
+        theme.span(format!("{mark}{word} "), role),
     ]);
-    let title = ascii_text(theme, &title(app));
-    let title = whole_words(&title, usize::from(room).saturating_sub(left.width() + 1));
-    left.push_span(Span::styled(
-        ascii_text(theme, &title),
-        theme.style(Role::Dim),
-    ));
-    put(
-        Rect {
-            width: room,
-            ..area
-        },
-        0,
-        &left,
-        buffer,
-    );
+    let free = usize::from(room).saturating_sub(left.width() + 1);
+    let title = whole_words(&theme.words(title(app)), free);
+    left.push_span(theme.span(title, Role::Dim));
+    put(columns(area, 0, room), 0, &left, buffer);
 }
 
 /// The scene's title, which may hold numbers; where knobs are no longer what they were, by a key, the scene's script or in what
@@ -53,27 +42,6 @@ fn title(app: &App) -> String {
         return app.setup.scene.title.clone();
     }
     format!("{}, changed: {}", app.setup.name, changed.join(", "))
-}
-
-/// As many whole words as fit, and a sign that there are more.
-fn whole_words(text: &str, room: usize) -> String {
-    if text.chars().count() <= room {
-        return text.to_owned();
-    }
-    let mut kept = String::new();
-    for word in text.split_inclusive(' ') {
-        // Three columns for the dots where there are no others.
-        if kept.chars().count() + word.trim_end().chars().count() + 3 > room {
-            break;
-        }
-        kept.push_str(word);
-    }
-    let kept = kept.trim_end_matches([' ', ',', ':']);
-    if kept.is_empty() {
-        String::new()
-    } else {
-        format!("{kept}…")
-    }
 }
 
 /// What the run does, as a shape, a word and a colour.
@@ -105,7 +73,7 @@ fn state(app: &App) -> (&'static str, String, Role) {
 /// Columns from which specific sliding has room, too.
 const ROOMY: u16 = 76;
 
-fn numbers(app: &App, columns: u16) -> Line<'static> {
+fn numbers(app: &App, width: u16) -> Line<'static> {
     let theme = app.theme;
     let Some(frame) = app.frame() else {
         return Line::default();
@@ -122,46 +90,19 @@ fn numbers(app: &App, columns: u16) -> Line<'static> {
         sig_or_dash(metrics.lambda_ratio, 2)
     };
     let mut pairs = vec![
-        ("S", format!("{:.2}", metrics.slide_roll), Role::Strong),
-        ("p_h", p_hertz, Role::Strong),
-        ("λ", lambda, Role::Strong),
-        ("n", n, Role::Strong),
+        ("S", format!("{:.2}", metrics.slide_roll)),
+        ("p_h", p_hertz),
+        ("λ", lambda),
+        ("n", n),
     ];
-    if columns >= ROOMY {
+    if width >= ROOMY {
         let (u1, u2) = speed_ratios(metrics.slide_roll);
         let specific = [u1, u2].map(|own| sig((u2 - u1).abs() / own.abs(), 2));
-        pairs.insert(1, ("ζ", specific.join(" "), Role::Strong));
+        pairs.insert(1, ("ζ", specific.join(" ")));
     }
-    let mut spans = Vec::new();
-    for (name, value, role) in pairs {
-        spans.push(Span::styled(
-            format!("{} ", ascii_text(theme, name)),
-            theme.style(Role::Dim),
-        ));
-        spans.push(Span::styled(
-            format!("{}  ", ascii_text(theme, &value)),
-            theme.style(role),
-        ));
-    }
-    Line::from(spans)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn titles_are_cut_between_words() {
-        let title = "Two rough rollers, sliding";
-        let table = [
-            (26, title),
-            (25, "Two rough rollers…"),
-            (14, "Two rough…"),
-            (6, "Two…"),
-            (4, ""),
-        ];
-        for (room, cut) in table {
-            assert_eq!(whole_words(title, room), cut, "{room}");
-        }
-    }
+    let pairs = pairs.into_iter().flat_map(|(name, value)| {
+        let name = theme.span(format!("{name} "), Role::Dim);
+        [name, theme.span(format!("{value}  "), Role::Strong)]
+    });
+    pairs.collect()
 }

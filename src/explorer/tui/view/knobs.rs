@@ -1,9 +1,9 @@
 //! Left: the knobs as sliders.
 
-mod speeds;
+pub(super) mod speeds;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Margin, Position, Rect};
 use ratatui::text::{Line, Span};
 
 use crate::tui::action::Action;
@@ -11,10 +11,14 @@ use crate::tui::app::{App, PanelKind};
 use crate::tui::dial::{Dial, DialState};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, put_right, title};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::chart::Symbol;
+use crate::tui::view::panel::{panel, title};
+use crate::tui::view::place::{
+    columns, columns_from, fitting, put, put_middle, put_right, rows, rows_from,
+};
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::Knob;
-pub(super) use speeds::{SPECIFIC, SYMBOLS};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let theme = app.theme;
@@ -36,12 +40,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     }
     let used = app.dials.len() as u16 * rows_each(areas);
     if inner.height > used + 3 {
-        let rest = Rect {
-            y: inner.y + used + 1,
-            height: inner.height - used - 1,
-            ..inner
-        };
-        speeds::speeds(app, rest, buffer);
+        speeds::speeds(app, rows_from(inner, used + 1), buffer);
     }
 }
 
@@ -81,28 +80,24 @@ const WIDE: u16 = 60;
 fn typical(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
     let unit = dial.unit(app.units);
-    let mut spans = vec![Span::raw(" ")];
-    let mut used = 1;
+    let room = columns_from(slot, 1);
+    let mut line = Line::default();
     for (n, (value, of)) in dial.typical.iter().enumerate() {
+        let digit = theme.span((n + 1).to_string(), Role::Key);
         let shown = figure(dial, unit.of(*value), 2);
-        let words = if of.is_empty() {
-            format!(" {shown}  ")
-        } else {
-            format!(" {shown} {of}  ")
-        };
-        used += 1 + words.chars().count();
-        if used > usize::from(slot.width) {
+        let of = if of.is_empty() { "" } else { &format!(" {of}") };
+        let words = theme.span(format!(" {shown}{of}  "), Role::Dim);
+        if line.width() + 1 + words.width() > usize::from(room.width) {
             break;
         }
-        spans.push(Span::styled((n + 1).to_string(), theme.style(Role::Key)));
-        spans.push(Span::styled(words, theme.style(Role::Dim)));
+        line.extend([digit, words]);
     }
-    put(slot, 3, &Line::from(spans), buffer);
+    put(room, 3, &line, buffer);
 }
 
 fn rows_each(areas: &Areas) -> u16 {
     // Three rows are enough; the fourth is air, where there is plenty.
-    let height = inside(areas, areas.knobs).height;
+    let height = areas.inside(PanelKind::Knobs).height;
     let enlarged = areas.knobs.width >= WIDE;
     let most = if height >= 44 || enlarged { 4 } else { 3 };
     (height / 5).clamp(2, most)
@@ -114,27 +109,13 @@ fn slot(areas: &Areas, place: usize) -> Rect {
         PanelSpacing::Compact => 0,
         PanelSpacing::Full => 1,
     };
-    let frame = inside(areas, areas.knobs);
-    let inner = Rect {
-        x: frame.x + margin,
-        width: frame.width.saturating_sub(2 * margin),
-        ..frame
-    };
-    let rows = rows_each(areas);
-    Rect {
-        y: inner.y + place as u16 * rows,
-        height: rows,
-        ..inner
-    }
-    .intersection(inner)
+    let inner = areas.inside(PanelKind::Knobs).inner(Margin::new(margin, 0));
+    let each = rows_each(areas);
+    rows(inner, place as u16 * each, each)
 }
 
 fn track(slot: Rect) -> Rect {
-    Rect {
-        y: slot.y + 1,
-        height: slot.height.saturating_sub(1).min(1),
-        ..slot
-    }
+    rows(slot, 1, 1)
 }
 
 fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
@@ -144,21 +125,15 @@ fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut
     let room = slot.width.saturating_sub(value.width() as u16 + 1);
     let mark = if chosen { theme.pick("▸", ">") } else { " " };
     let role = if chosen { Role::Chosen } else { Role::Text };
-    let whole = dial.label.chars().count() < usize::from(room);
-    let label = if whole { dial.label } else { dial.name() };
-    let name = Line::from(vec![
-        Span::styled(mark, theme.style(Role::Chosen)),
-        Span::styled(ascii_text(theme, label), theme.style(role)),
-    ]);
-    put(
-        Rect {
-            width: room,
-            ..slot
-        },
-        0,
-        &name,
-        buffer,
+    let name = fitting(
+        [dial.label, dial.name()],
+        usize::from(room).saturating_sub(1),
     );
+    let name = Line::from(vec![
+        theme.span(mark, Role::Chosen),
+        theme.span(name.unwrap_or(dial.name()), role),
+    ]);
+    put(columns(slot, 0, room), 0, &name, buffer);
     put_right(slot, 0, &value, buffer);
 }
 
@@ -166,27 +141,25 @@ fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut
 fn value_line(app: &App, dial: &Dial) -> Line<'static> {
     let theme = app.theme;
     if let DialState::Dead(reason) = dial.life {
-        return Line::styled(reason, theme.style(Role::Dim));
+        return theme.line(reason, Role::Dim);
     }
     let unit = dial.unit(app.units);
     let digits = if dial.knob == Knob::SlideRoll { 2 } else { 3 };
     let target = figure(dial, unit.of(dial.target), digits);
-    let mut spans = Vec::new();
+    let mut line = Line::default();
     if dial.is_moving() {
         let now = figure(dial, unit.of(dial.now), digits);
-        spans.push(Span::styled(
-            format!("{now}{}", theme.pick("→", ">")),
+        let arrow = theme.pick("→", ">");
+        line.push_span(Span::styled(
+            format!("{now}{arrow}"),
             theme.style(Role::Warn),
         ));
     }
-    spans.push(Span::styled(target, theme.style(Role::Strong)));
+    line.push_span(theme.span(target, Role::Strong));
     if !unit.name.is_empty() {
-        spans.push(Span::styled(
-            format!(" {}", ascii_text(theme, unit.name)),
-            theme.style(Role::Dim),
-        ));
+        line.push_span(theme.span(format!(" {}", unit.name), Role::Dim));
     }
-    Line::from(spans)
+    line
 }
 
 /// S and the heights keep their two decimals, so that they do not jump about.
@@ -213,55 +186,26 @@ fn slider(app: &App, place: usize, dial: &Dial, track: Rect, buffer: &mut Buffer
     } else {
         Role::Film
     };
-    for offset in 0..track.width {
-        let within = offset >= root.min(now) && offset <= root.max(now) && !dead;
-        let (symbol, role) = if within {
-            (theme.pick("━", "="), filled)
+    let mut paint = |column: u16, unicode, ascii, role| {
+        Symbol::new(theme, unicode, ascii, role).draw((track.x + column, track.y), buffer);
+    };
+    for column in 0..track.width {
+        if (root.min(now)..=root.max(now)).contains(&column) && !dead {
+            paint(column, "━", "=", filled);
         } else {
-            (theme.pick("─", "-"), Role::Border)
-        };
-        paint(track, offset, symbol, theme.style(role), buffer);
+            paint(column, "─", "-", Role::Border);
+        }
     }
     if dead {
         return;
     }
     if root > 0 {
-        paint(
-            track,
-            root,
-            theme.pick("┼", "+"),
-            theme.style(Role::Border),
-            buffer,
-        );
+        paint(root, "┼", "+", Role::Border);
     }
     if now != target {
-        paint(
-            track,
-            now,
-            theme.pick("◆", "|"),
-            theme.style(filled),
-            buffer,
-        );
+        paint(now, "◆", "|", filled);
     }
-    paint(
-        track,
-        target,
-        theme.pick("●", "O"),
-        theme.style(Role::Strong),
-        buffer,
-    );
-}
-
-fn paint(
-    track: Rect,
-    offset: u16,
-    symbol: &str,
-    style: ratatui::style::Style,
-    buffer: &mut Buffer,
-) {
-    if let Some(cell) = buffer.cell_mut((track.x + offset, track.y)) {
-        cell.set_symbol(symbol).set_style(style);
-    }
+    paint(target, "●", "O", Role::Strong);
 }
 
 /// Range of the slider; for the load the Hertz pressure, as that is what one thinks in.
@@ -276,43 +220,23 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     if let Some(body) = stands {
         let left_out = app.setup.scene.life.as_ref();
         let left_out = left_out.is_some_and(|life| life.cycles != CycleBasis::Damage);
-        let more = if left_out && slot.width >= 28 {
-            ": not in the life"
-        } else {
-            ""
+        let more = match slot.width {
+            28.. if left_out => ": not in the life",
+            _ => "",
         };
         let text = format!("body {body} stands{more}");
-        put(
-            slot,
-            2,
-            &Line::styled(text, theme.style(Role::Warn)),
-            buffer,
-        );
+        put(slot, 2, &theme.line(text, Role::Warn), buffer);
         return;
     }
     if !is_load || slot.width >= 24 {
-        let ends = Line::styled(tick(unit.of(dial.min)), theme.style(Role::Dim));
-        put(slot, 2, &ends, buffer);
-        let end = Line::styled(tick(unit.of(dial.max)), theme.style(Role::Dim));
-        put_right(slot, 2, &end, buffer);
+        let [from, to] = [dial.min, dial.max].map(|end| theme.line(tick(unit.of(end)), Role::Dim));
+        put(slot, 2, &from, buffer);
+        put_right(slot, 2, &to, buffer);
     }
     if is_load {
-        let text = format!(
-            "p_h {}",
-            app.units.pressure().show(app.estimate.p_hertz_pa, 3)
-        );
-        let width = text.len() as u16;
-        let middle = Rect {
-            x: slot.x + slot.width.saturating_sub(width) / 2,
-            width: width.min(slot.width),
-            ..slot
-        };
-        put(
-            middle,
-            2,
-            &Line::styled(text, theme.style(Role::Pressure)),
-            buffer,
-        );
+        let p_hertz = app.units.pressure().show(app.estimate.p_hertz_pa, 3);
+        let text = theme.line(format!("p_h {p_hertz}"), Role::Pressure);
+        put_middle(slot, 2, &text, buffer);
     }
 }
 

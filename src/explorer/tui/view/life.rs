@@ -1,21 +1,21 @@
 //! Right: relative life, large, with its band, and the mechanisms that make it.
 
+mod bars;
 mod counts;
-mod mechanisms;
 mod number;
-mod scale;
 mod validity;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
-use ratatui::style::{Modifier, Style};
-use ratatui::text::Line;
+use ratatui::layout::{Margin, Position, Rect};
 
 use crate::tui::action::Action;
-use crate::tui::app::{App, Leading, PanelKind};
+use crate::tui::app::{App, PanelKind};
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
-use crate::tui::view::{Areas, PanelSpacing, curve, panel, put, title};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::curve;
+use crate::tui::view::panel::{panel, title};
+use crate::tui::view::place::{RowAllotment, put};
 
 /// A press on the curve against S goes there.
 pub(super) fn pressed(app: &App, areas: &Areas, screen: Rect, at: Position) -> Option<Action> {
@@ -33,53 +33,38 @@ pub(super) fn render(
     areas: &Areas,
     buffer: &mut Buffer,
 ) -> (Option<Rect>, Vec<PixelPlot>) {
-    let theme = app.theme;
-    let inner = panel(
-        app,
-        areas,
-        PanelKind::Life,
-        title(theme, "", number::name(app, areas)),
-        buffer,
-    );
-    let inner = if areas.density == PanelSpacing::Full {
-        Rect {
-            x: inner.x + 1,
-            width: inner.width.saturating_sub(2),
-            ..inner
-        }
-    } else {
-        inner
-    };
-    let mut rows = RowAllotment {
-        area: inner,
-        next: 0,
-    };
+    let heading = title(app.theme, "", number::name(app, areas));
+    let mut inner = panel(app, areas, PanelKind::Life, heading, buffer);
+    if areas.density == PanelSpacing::Full {
+        inner = inner.inner(Margin::new(1, 0));
+    }
+    let mut rows = RowAllotment { rest: inner };
     if app.setup.scene.life.is_none() {
         return without_life(app, &mut rows, buffer);
     }
     let roomy = inner.height >= 20;
     if roomy {
-        rows.skip();
+        rows.take(1);
     }
     number::figure(app, &mut rows, buffer);
     validity::line(app, rows.take(1), buffer);
     // Where rows are few the factors and counts say more than a scale.
     if inner.height >= 13 {
-        scale::scale(app, &mut rows, buffer);
+        bars::scale(app, &mut rows, buffer);
     }
     if roomy {
         number::model(app, rows.take(1), buffer);
     }
-    mechanisms::mechanisms(app, &mut rows, buffer);
+    bars::mechanisms(app, &mut rows, buffer);
     if roomy {
-        mechanisms::scale(app.theme, rows.take(1), buffer);
+        bars::waterfall_ends(app.theme, rows.take(1), buffer);
     }
     counts::counts(app, &mut rows, buffer);
     counts::other_count(app, &mut rows, buffer);
     if app.pinned.is_some() {
         counts::comparison(app, &mut rows, buffer);
     }
-    curve::render(app, rows.rest(), buffer)
+    curve::render(app, rows.rest, buffer)
 }
 
 /// A scene that asks for no life: it is not waited for.
@@ -88,51 +73,11 @@ fn without_life(
     rows: &mut RowAllotment,
     buffer: &mut Buffer,
 ) -> (Option<Rect>, Vec<PixelPlot>) {
-    let dim = app.theme.style(Role::Dim);
-    let words = ["no life in this scene", "(no [life] table)"];
-    for text in words {
-        put(rows.take(1), 0, &Line::styled(text, dim), buffer);
+    for text in ["no life in this scene", "(no [life] table)"] {
+        put(rows.take(1), 0, &app.theme.line(text, Role::Dim), buffer);
     }
     validity::line(app, rows.take(1), buffer);
-    rows.skip();
+    rows.take(1);
     counts::counts(app, rows, buffer);
-    curve::render(app, rows.rest(), buffer)
-}
-
-/// Rows handed out from above.
-struct RowAllotment {
-    area: Rect,
-    next: u16,
-}
-
-impl RowAllotment {
-    fn take(&mut self, rows: u16) -> Rect {
-        let rest = self.rest();
-        self.next += rows;
-        Rect {
-            height: rows.min(rest.height),
-            ..rest
-        }
-    }
-
-    fn skip(&mut self) {
-        self.next += 1;
-    }
-
-    fn rest(&self) -> Rect {
-        let used = self.next.min(self.area.height);
-        Rect {
-            y: self.area.y + used,
-            height: self.area.height - used,
-            ..self.area
-        }
-    }
-}
-
-/// Dims what the simulation says while it is on its way.
-fn simulated(app: &App, style: Style) -> Style {
-    match app.leading() {
-        Leading::Simulated => style,
-        Leading::Scaled | Leading::Formula => style.add_modifier(Modifier::DIM),
-    }
+    curve::render(app, rows.rest, buffer)
 }

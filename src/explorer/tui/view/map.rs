@@ -12,19 +12,20 @@ mod raster;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::text::Line;
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, MapKind, PanelKind, Zoom};
 use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::{Bitmap, PixelPlot};
-use crate::tui::theme::{Role, Theme};
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put};
+use crate::tui::theme::Role;
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::panel::panel;
+use crate::tui::view::place::{columns, put, rows};
 use asperity_engine::sim::Frame;
 use asperity_picture::{Picture, Subject};
 use heading::heading;
 use motion::motion;
-use paint::{MapMark, Pixel, color_bar, look, paint};
+use paint::{MapMark, MapPainter, color_bar, look, mark};
 use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 
 /// Columns of the colour bar with its numbers.
@@ -40,53 +41,53 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
     if app.map == MapKind::Profile {
         return profile::side_view(app, frame, inner, buffer);
     }
-    let (picture, bar) = split(areas, inner);
     let look = look(app);
-    let window = window(app, frame, picture);
-    let image = image_area(app.map, &window, picture);
+    let room = MapRoom::of(app, frame, areas);
+    let (window, image) = (&room.window, room.image);
     if image.is_empty() {
         return None;
     }
-    let pixels = (usize::from(image.width), rows(theme, image));
-    match picture_of(app, frame, &window, pixels) {
+    let rows = usize::from(image.height) * if theme.paints() { 2 } else { 1 };
+    match picture_of(app, frame, window, (usize::from(image.width), rows)) {
         // Its room stays blank: the terminal's own pixels come there.
         Some(_) if app.is_in_pixels() => {}
-        Some(raster) => paint(theme, &raster, &look, &window, app.map, image, buffer),
-        None => put(
-            image,
-            image.height / 2,
-            &Line::styled(
-                "no stress is computed in this scene",
-                theme.style(Role::Dim),
-            ),
-            buffer,
-        ),
+        Some(raster) => {
+            let painter = MapPainter {
+                kind: app.map,
+                look: &look,
+                window,
+                raster: &raster,
+            };
+            painter.paint(theme, image, buffer);
+        }
+        None => {
+            let text = theme.line("no stress is computed in this scene", Role::Dim);
+            put(image, image.height / 2, &text, buffer);
+        }
     }
     if !app.is_in_pixels() {
         let marks = [(point_at(app, frame), "◆"), (app.probe, "╋")];
         for (at, symbol) in marks {
-            if let Some(at) = at {
-                place(app, &window, image, at, symbol, buffer);
+            if let Some(part) = at.and_then(|(x, y)| window.part(x, y)) {
+                mark(theme, image, part, symbol, buffer);
             }
         }
     }
-    axes::draw(app, frame, &window, (image, inner), buffer);
-    color_bar(theme, &look, app.map, bar, buffer);
+    axes::draw(app, frame, window, image, inner, buffer);
+    color_bar(theme, &look, app.map, room.bar, buffer);
     motion(app, frame, areas, inner, buffer);
-    probe(app, frame, (picture, image), buffer);
+    probe(app, frame, &room, buffer);
     None
 }
 
 /// The cells that the map fills.
 pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
     let frame = app.frame()?;
-    if app.map == MapKind::Profile {
-        let (area, _) = profile::rooms(inside(areas, areas.map));
-        return Some(area).filter(|area| !area.is_empty());
-    }
-    let (picture, _) = split(areas, inside(areas, areas.map));
-    let window = window(app, frame, picture);
-    Some(image_area(app.map, &window, picture)).filter(|image| !image.is_empty())
+    let area = match app.map {
+        MapKind::Profile => profile::rooms(areas.inside(PanelKind::Map)).0,
+        _ => MapRoom::of(app, frame, areas).image,
+    };
+    (!area.is_empty()).then_some(area)
 }
 
 /// The map in pixels, so many for a cell.
@@ -96,29 +97,22 @@ pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitma
     if app.map == MapKind::Profile {
         return profile::in_pixels(app, frame, area, cell);
     }
-    let (picture, _) = split(areas, inside(areas, areas.map));
-    let window = window(app, frame, picture);
-    let look = look(app);
-    let side = |cells: u16, each: u16| usize::from(cells) * usize::from(each);
-    let (width, height) = (side(area.width, cell.0), side(area.height, cell.1));
-    let raster = picture_of(app, frame, &window, (width, height))?;
-    let places = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
-    let rgba = places
-        .flat_map(|place| Pixel::of(&look, &raster, &window, app.map, place).rgba(&look))
-        .collect();
-    let mut picture = Bitmap {
-        area,
-        width,
-        height,
-        rgba,
+    let MapRoom { window, .. } = MapRoom::of(app, frame, areas);
+    let raster = picture_of(app, frame, &window, Bitmap::size(area, cell))?;
+    let painter = MapPainter {
+        kind: app.map,
+        look: &look(app),
+        window: &window,
+        raster: &raster,
     };
+    let mut picture = Bitmap::of(area, cell, |column, row| painter.rgba(column, row));
     let marks = [
         (point_at(app, frame), MapMark::Diamond),
         (app.probe, MapMark::Cross),
     ];
     for (at, mark) in marks {
-        if let Some(at) = at {
-            mark.draw(&mut picture, &window, at, 0.6 * f64::from(cell.0));
+        if let Some(part) = at.and_then(|(x, y)| window.part(x, y)) {
+            mark.draw(&mut picture, part, 0.6 * f64::from(cell.0));
         }
     }
     Some(picture)
@@ -147,23 +141,19 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
     let frame = app.frame()?;
     if app.map == MapKind::Profile {
         let profile = profile::of(app, frame)?;
-        let (area, _) = profile::rooms(inside(areas, areas.map));
+        let (area, _) = profile::rooms(areas.inside(PanelKind::Map));
         let across = at.x >= area.x && at.x < area.right() && areas.map.contains(at);
         let part = (f64::from(at.x.saturating_sub(area.x)) + 0.5) / f64::from(area.width.max(1));
         let x = profile.x[0] + part * (profile.x[1] - profile.x[0]);
         return across.then_some(Action::PutPoint(x));
     }
-    let (picture, _) = split(areas, inside(areas, areas.map));
-    let window = window(app, frame, picture);
-    let image = image_area(app.map, &window, picture);
+    let MapRoom { window, image, .. } = MapRoom::of(app, frame, areas);
+    let part = |place: u16, start: u16, length: u16| {
+        (f64::from(place - start) + 0.5) / f64::from(length.max(1))
+    };
     image.contains(at).then(|| {
-        let part = |place: u16, start: u16, length: u16| {
-            (f64::from(place - start) + 0.5) / f64::from(length.max(1))
-        };
-        Action::Probe(
-            window.x_at(part(at.x, image.x, image.width)),
-            window.y_at(part(at.y, image.y, image.height)),
-        )
+        let x = window.x_at(part(at.x, image.x, image.width));
+        Action::Probe(x, window.y_at(part(at.y, image.y, image.height)))
     })
 }
 
@@ -173,35 +163,38 @@ fn waiting(app: &App, area: Rect, buffer: &mut Buffer) {
         Some(_) => "starting: dry Hertz, then film",
         None => "starting: dry Hertz",
     };
-    put(
-        area,
-        area.height / 2,
-        &Line::styled(text, theme.style(Role::Dim)),
-        buffer,
-    );
+    put(area, area.height / 2, &theme.line(text, Role::Dim), buffer);
 }
 
-/// Room for the picture and for the colour bar; the motion takes the last row (full: and the first), the axes the
-/// row above it and the columns at the left.
-fn split(areas: &Areas, inner: Rect) -> (Rect, Rect) {
-    let above = u16::from(areas.density == PanelSpacing::Full);
-    let [left, below] = axes::room(inner);
-    let picture = Rect {
-        x: inner.x + left,
-        y: inner.y + above,
-        height: inner.height.saturating_sub(1 + above + below),
-        width: inner.width.saturating_sub(BAR + left),
-    };
-    let bar = Rect {
-        x: picture.right(),
-        width: inner.width - picture.width,
-        ..picture
-    };
-    (picture, bar)
+/// Where the map is drawn, and which part of the plane.
+struct MapRoom {
+    /// The room that the map may fill.
+    picture: Rect,
+    /// The colour bar with its numbers.
+    bar: Rect,
+    window: MapWindow,
+    /// What it does fill.
+    image: Rect,
 }
 
-fn rows(theme: Theme, image: Rect) -> usize {
-    usize::from(image.height) * if theme.paints() { 2 } else { 1 }
+impl MapRoom {
+    /// The motion takes the last row (full: and the first), the axes the row above it and the columns at the left.
+    fn of(app: &App, frame: &Frame, areas: &Areas) -> Self {
+        let inner = areas.inside(PanelKind::Map);
+        let above = u16::from(areas.density == PanelSpacing::Full);
+        let [left, below] = axes::room(inner);
+        let height = inner.height.saturating_sub(1 + above + below);
+        let width = inner.width.saturating_sub(BAR + left);
+        let whole = rows(inner, above, height);
+        let picture = columns(whole, left, width);
+        let window = window(app, frame, picture);
+        Self {
+            picture,
+            bar: columns(whole, left + width, inner.width - width),
+            image: image_area(app.map, &window, picture),
+            window,
+        }
+    }
 }
 
 /// The part of the plane that is drawn, in half-widths.
@@ -209,52 +202,41 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> MapWindow {
     let (columns, pixels) = (f64::from(picture.width), 2.0 * f64::from(picture.height));
     let x_end = frame.x_min_m + (frame.nx.max(2) - 1) as f64 * frame.dx_m;
     let domain = [frame.x_min_m / frame.a_m, x_end / frame.a_m];
+    let zoomed = |from: f64, to: f64| match app.zoom {
+        Zoom::Contact => [domain[0].max(from), domain[1].min(to)],
+        Zoom::Domain => domain,
+    };
     if app.map.is_over_time() {
-        let x = match app.zoom {
-            Zoom::Contact => [domain[0].max(-1.6), domain[1].min(1.4)],
-            Zoom::Domain => domain,
-        };
         return MapWindow {
-            x,
+            x: zoomed(-1.6, 1.4),
             y: [-SHOWN, 0.0],
         };
     }
     if app.map == MapKind::Stress {
-        let x = match app.zoom {
-            Zoom::Contact => [domain[0].max(-1.8), domain[1].min(1.8)],
-            Zoom::Domain => domain,
-        };
-        let deepest = frame
-            .slice
-            .as_ref()
-            .and_then(|slice| slice.depths_m.last())
-            .map_or(1.0, |depth| depth / frame.a_m);
+        let depths = frame.slice.as_ref().map(|slice| &slice.depths_m);
+        let deepest = depths.and_then(|depths| depths.last());
+        let deepest = deepest.map_or(1.0, |depth| depth / frame.a_m);
         let depth = match app.zoom {
             Zoom::Contact => deepest.min(1.2),
             Zoom::Domain => deepest,
         };
-        return MapWindow { x, y: [0.0, depth] };
+        return MapWindow {
+            x: zoomed(-1.8, 1.8),
+            y: [0.0, depth],
+        };
     }
     let half = (-frame.y_min_m / frame.b_m).abs().max(0.1);
-    let least = match app.zoom {
-        Zoom::Contact => half.min(1.15),
-        Zoom::Domain => half,
+    let (half_height, wanted_x) = match app.zoom {
+        Zoom::Contact => (half.min(1.15), (domain[1] - domain[0]).min(2.6)),
+        Zoom::Domain => (half, domain[1] - domain[0]),
     };
     // As many half-widths per pixel as it takes to show the ellipse; then as much as fits.
-    let wanted_x = match app.zoom {
-        Zoom::Contact => (domain[1] - domain[0]).min(2.6),
-        Zoom::Domain => domain[1] - domain[0],
-    };
-    let scale = (2.0 * least / pixels.max(1.0)).max(wanted_x / columns.max(1.0));
+    let scale = (2.0 * half_height / pixels.max(1.0)).max(wanted_x / columns.max(1.0));
     let across = (0.5 * scale * pixels).min(half);
     let along = scale * columns;
-    let x = match app.zoom {
-        // The contact stays in the middle of the panel.
-        Zoom::Contact => [domain[0].max(-0.5 * along), domain[1].min(0.5 * along)],
-        Zoom::Domain => domain,
-    };
     MapWindow {
-        x,
+        // The contact stays in the middle of the panel.
+        x: zoomed(-0.5 * along, 0.5 * along),
         // y points up, as in all pictures.
         y: [across, -across],
     }
@@ -291,34 +273,6 @@ fn point_at(app: &App, frame: &Frame) -> Option<(f64, f64)> {
     Some((point.sample.x_m / frame.a_m, y))
 }
 
-fn place(
-    app: &App,
-    window: &MapWindow,
-    image: Rect,
-    (x, y): (f64, f64),
-    symbol: &'static str,
-    buffer: &mut Buffer,
-) {
-    let theme = app.theme;
-    let part = |value: f64, range: [f64; 2]| (value - range[0]) / (range[1] - range[0]);
-    let (along, down) = (part(x, window.x), part(y, window.y));
-    if !(0.0..1.0).contains(&along) || !(0.0..1.0).contains(&down) {
-        return;
-    }
-    let at = (
-        image.x + (along * f64::from(image.width)) as u16,
-        image.y + (down * f64::from(image.height)) as u16,
-    );
-    if let Some(cell) = buffer.cell_mut(at) {
-        cell.set_symbol(theme.pick(symbol, "X"));
-        if theme.paints() {
-            cell.set_fg(theme.rgb([255, 255, 255]));
-        } else {
-            cell.set_style(theme.style(Role::Strong));
-        }
-    }
-}
-
 /// Pressure and film at a place of the centre line, so many passages ago.
 fn waves_at(app: &App, frame: &Frame, x: f64, ago: f64) -> Option<(f32, f32)> {
     let span = app.waves()?;
@@ -328,43 +282,28 @@ fn waves_at(app: &App, frame: &Frame, x: f64, ago: f64) -> Option<(f32, f32)> {
 }
 
 /// The values at the probe, on the last row of the picture.
-fn probe(app: &App, frame: &Frame, (picture, image): (Rect, Rect), buffer: &mut Buffer) {
+fn probe(app: &App, frame: &Frame, room: &MapRoom, buffer: &mut Buffer) {
     let Some((x, y)) = app.probe else { return };
-    let theme = app.theme;
+    let (p, h) = (app.units.pressure(), app.units.film());
     let pressure_and_film = |(pressure, film): (f32, f32)| {
-        let (p, h) = (app.units.pressure(), app.units.film());
-        format!(
-            "p {}  h {}",
-            p.show(f64::from(pressure), 3),
-            h.show(f64::from(film), 3)
-        )
+        let (p, h) = (p.show(f64::from(pressure), 3), h.show(f64::from(film), 3));
+        format!("p {p}  h {h}")
     };
     let text = if app.map.is_over_time() {
-        waves_at(app, frame, x, -y).map(|values| {
-            let values = pressure_and_film(values);
-            format!("x {x:.2} a  {:.2} a ago  {values}", -4.0 * y)
-        })
+        waves_at(app, frame, x, -y)
+            .map(|values| format!("{:.2} a ago  {}", -4.0 * y, pressure_and_film(values)))
     } else if app.map == MapKind::Stress {
-        raster::stress_at(frame, x, y).map(|stress| {
-            format!(
-                "x {x:.2} a  z {y:.2} a  σ {}",
-                app.units.pressure().show(f64::from(stress), 3)
-            )
-        })
+        let shown = |stress: f32| p.show(f64::from(stress), 3);
+        raster::stress_at(frame, x, y).map(|stress| format!("z {y:.2} a  σ {}", shown(stress)))
     } else {
         raster::plane_at(frame, x, y)
-            .map(|values| format!("x {x:.2} a  y {y:.2} b  {}", pressure_and_film(values)))
+            .map(|values| format!("y {y:.2} b  {}", pressure_and_film(values)))
     };
     if let Some(text) = text {
-        let line = Line::styled(
-            format!(" {} ", ascii_text(theme, &text)),
-            theme.style(Role::Strong),
-        );
-        let row = Rect {
-            y: image.bottom() - 1,
-            height: 1,
-            ..picture
-        };
-        put(row, 0, &line, buffer);
+        let line = app
+            .theme
+            .line(format!(" x {x:.2} a  {text} "), Role::Strong);
+        let last = (room.image.bottom() - room.picture.y).saturating_sub(1);
+        put(room.picture, last, &line, buffer);
     }
 }

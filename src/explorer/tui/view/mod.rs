@@ -7,48 +7,44 @@ mod chart;
 mod curve;
 mod digits;
 mod footer;
-mod forms;
 mod header;
 mod knobs;
-mod lesson_list;
 mod life;
 mod map;
 mod overlay;
+mod panel;
+mod place;
 mod point;
 mod status;
 
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Margin, Position, Rect};
+use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Style};
-use ratatui::symbols;
-use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, BorderType, Borders, Paragraph, Widget, Wrap};
+use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, Overlay, PanelKind};
 use crate::tui::event::{Pointer, PointerAct};
 use crate::tui::pixels::{Bitmap, PixelPlot};
-use crate::tui::theme::{Role, Theme};
-pub use areas::{Areas, Banner, LEAST, LEAST_NARROW, PanelSpacing};
+use crate::tui::theme::Role;
+pub use areas::{Areas, MIN_NARROW_SCREEN, MIN_SCREEN, PanelSpacing};
+use place::rows;
 
 /// The panels of the screen as it is now.
 fn areas_of(app: &App, screen: Rect) -> Option<Areas> {
-    let areas = Areas::of(screen, banner(caption::of(app).as_ref(), screen))?;
-    let areas = areas.with_picture(app.focus);
-    let areas = if app.why().is_some() {
-        areas.with_a_line()
-    } else {
-        areas
-    };
-    let areas = match app.enlarged {
-        Some(panel) => areas.enlarged(panel),
-        None => areas,
-    };
-    Some(match &app.ghost {
-        Some(_) => areas.with_two_maps(),
-        None => areas,
-    })
+    let caption_rows = caption::of(app).map_or(0, |caption| caption.rows(screen.width));
+    let mut areas = Areas::of(screen, caption_rows)?.with_picture(app.focus);
+    if app.why().is_some() {
+        areas = areas.with_a_line();
+    }
+    if let Some(panel) = app.enlarged {
+        areas = areas.enlarged(panel);
+    }
+    if app.ghost.is_some() {
+        areas = areas.with_two_maps();
+    }
+    Some(areas)
 }
 
 /// Draws the whole screen.
@@ -106,17 +102,13 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
     if let Some(caption) = caption::of(app) {
         caption::render(app, &caption, areas.caption, buffer);
     }
-    let body = Rect {
-        height: screen.height - areas.status.height - 1,
-        y: screen.y + 1,
-        ..screen
-    };
+    let body = rows(screen, 1, screen.height - areas.status.height - 1);
     match (app.fault(), app.overlay) {
         (Some(reason), _) => overlay::fault(app, reason, body, buffer),
         (None, Overlay::Help) => overlay::help(app, body, buffer),
         (None, Overlay::Plan) => overlay::plan(app, body, buffer),
-        (None, Overlay::Scene) => forms::scene(app, body, buffer),
-        (None, Overlay::Lessons) => lesson_list::lessons(app, body, buffer),
+        (None, Overlay::Scene) => overlay::scene(app, body, buffer),
+        (None, Overlay::Lessons) => overlay::lessons(app, body, buffer),
         (None, Overlay::None) => {}
     }
     if let Some(over) = status::message(app, &areas, screen, buffer) {
@@ -138,12 +130,6 @@ pub fn picture(app: &App, screen: Rect, cell: (u16, u16)) -> Option<Bitmap> {
 fn picture_areas(app: &App, screen: Rect) -> Option<Areas> {
     let areas = areas_of(app, screen)?;
     (app.is_in_pixels() && !areas.map.is_empty()).then_some(areas)
-}
-
-fn banner(caption: Option<&caption::Caption>, screen: Rect) -> Banner {
-    caption.map_or(Banner::None, |caption| {
-        Banner::Caption(caption.rows(screen.width))
-    })
 }
 
 /// What the pointer asks for on a screen of that size.
@@ -190,127 +176,17 @@ fn wheel(app: &App, areas: &Areas, at: Position, by: i32) -> Option<Action> {
 fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
     let text = format!(
         "{} x {} is too small: {} x {} shows the explorer, {} x {} a part of it. q quits.",
-        screen.width, screen.height, LEAST.0, LEAST.1, LEAST_NARROW.0, LEAST_NARROW.1
+        screen.width,
+        screen.height,
+        MIN_SCREEN.0,
+        MIN_SCREEN.1,
+        MIN_NARROW_SCREEN.0,
+        MIN_NARROW_SCREEN.1
     );
     Paragraph::new(text)
         .style(app.theme.style(Role::Warn))
         .wrap(Wrap { trim: true })
         .render(screen, buffer);
-}
-
-/// Draws a panel's frame and gives the room inside; the frame of the one that the keys speak of stands out.
-fn panel(app: &App, areas: &Areas, kind: PanelKind, title: Line<'_>, buffer: &mut Buffer) -> Rect {
-    let (theme, area) = (app.theme, areas.of_panel(kind));
-    let (role, key) = match app.enlarged {
-        Some(_) => (Role::Key, " Esc "),
-        None if app.is_frozen => (Role::Formula, ""),
-        None if app.focus == kind => (Role::Key, " ⏎ "),
-        None => (Role::Border, ""),
-    };
-    let has_room = title.width() + key.chars().count() + 2 < usize::from(area.width);
-    let borders = match areas.density {
-        PanelSpacing::Compact => Borders::TOP,
-        PanelSpacing::Full => Borders::ALL,
-    };
-    let mut block = Block::new()
-        .borders(borders)
-        .border_style(theme.style(role))
-        .title_top(title);
-    block = if theme.is_ascii() {
-        block.border_set(ASCII_BORDER)
-    } else {
-        block.border_type(BorderType::Rounded)
-    };
-    if has_room && !key.is_empty() {
-        let key = Line::styled(ascii_text(theme, key), theme.style(Role::Key));
-        block = block.title_top(key.right_aligned());
-    }
-    block.render(area, buffer);
-    inside(areas, area)
-}
-
-/// The room inside a panel's frame.
-fn inside(areas: &Areas, area: Rect) -> Rect {
-    match areas.density {
-        PanelSpacing::Compact => Rect {
-            y: area.y + 1,
-            height: area.height.saturating_sub(1),
-            ..area
-        },
-        PanelSpacing::Full => area.inner(Margin::new(1, 1)),
-    }
-}
-
-const ASCII_BORDER: symbols::border::Set<'static> = symbols::border::Set {
-    top_left: "+",
-    top_right: "+",
-    bottom_left: "+",
-    bottom_right: "+",
-    vertical_left: "|",
-    vertical_right: "|",
-    horizontal_top: "-",
-    horizontal_bottom: "-",
-};
-
-/// A panel's title: its name, with the key that changes it in the key's colour.
-fn title<'a>(theme: Theme, key: &'a str, name: &'a str) -> Line<'a> {
-    let mut spans = vec![Span::raw(" ")];
-    if !key.is_empty() {
-        spans.push(Span::styled(key, theme.style(Role::Key)));
-        spans.push(Span::raw(" "));
-    }
-    spans.push(Span::styled(name, theme.style(Role::Title)));
-    spans.push(Span::raw(" "));
-    Line::from(spans)
-}
-
-/// Writes a line at a row of an area, if the row is there.
-fn put(area: Rect, row: u16, line: &Line<'_>, buffer: &mut Buffer) {
-    if row < area.height {
-        buffer.set_line(area.x, area.y + row, line, area.width);
-    }
-}
-
-/// Writes text against the right edge of a row.
-fn put_right(area: Rect, row: u16, line: &Line<'_>, buffer: &mut Buffer) {
-    let width = (line.width() as u16).min(area.width);
-    if row < area.height {
-        buffer.set_line(area.right() - width, area.y + row, line, width);
-    }
-}
-
-/// What only Unicode terminals show, in letters for those that do not.
-fn ascii_text(theme: Theme, text: &str) -> String {
-    if !theme.is_ascii() {
-        return text.to_owned();
-    }
-    let mut plain = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            'λ' => plain.push_str("lambda"),
-            'ζ' => plain.push_str("zeta"),
-            'µ' | 'μ' => plain.push('u'),
-            'σ' => plain.push_str("sigma"),
-            'τ' => plain.push_str("tau"),
-            '₁' => plain.push('1'),
-            '₂' => plain.push('2'),
-            '×' => plain.push('x'),
-            '→' => plain.push_str("->"),
-            '–' | '−' => plain.push('-'),
-            '≈' => plain.push('~'),
-            '≥' => plain.push_str(">="),
-            '≤' => plain.push_str("<="),
-            '±' => plain.push_str("+-"),
-            '·' => plain.push('.'),
-            '…' => plain.push_str("..."),
-            '⏎' => plain.push_str("CR"),
-            '◂' => plain.push('<'),
-            '▸' => plain.push('>'),
-            other if other.is_ascii() => plain.push(other),
-            _ => plain.push('?'),
-        }
-    }
-    plain
 }
 
 #[cfg(test)]
@@ -319,26 +195,23 @@ mod tests {
 
     #[test]
     fn panels_fill_the_screen_and_never_overlap() {
-        for width in 60..=300 {
+        for width in (60..=300).step_by(7) {
             for height in 20..=100 {
                 let screen = Rect::new(0, 0, width, height);
-                panels_at(screen, Banner::None);
-                panels_at(screen, Banner::Caption(5));
+                panels_at(screen, 0);
+                panels_at(screen, 5);
             }
         }
         for (width, height) in [(59, 29), (60, 19), (39, 100)] {
-            assert_eq!(
-                Areas::of(Rect::new(0, 0, width, height), Banner::None),
-                None
-            );
+            assert_eq!(Areas::of(Rect::new(0, 0, width, height), 0), None);
         }
     }
 
     #[test]
     fn a_narrow_screen_has_one_picture_life_and_knobs() {
         for (width, height) in [(40, 30), (59, 30), (48, 44), (40, 100)] {
-            for banner in [Banner::None, Banner::Caption(6)] {
-                let Some(areas) = Areas::of(Rect::new(0, 0, width, height), banner) else {
+            for caption_rows in [0, 6] {
+                let Some(areas) = Areas::of(Rect::new(0, 0, width, height), caption_rows) else {
                     panic!("{width} x {height} is large enough")
                 };
                 for picture in [PanelKind::Map, PanelKind::CentreLine, PanelKind::Point] {
@@ -364,8 +237,8 @@ mod tests {
         }
     }
 
-    fn panels_at(screen: Rect, banner: Banner) {
-        let Some(areas) = Areas::of(screen, banner) else {
+    fn panels_at(screen: Rect, caption_rows: u16) {
+        let Some(areas) = Areas::of(screen, caption_rows) else {
             panic!("{screen} is large enough")
         };
         let all = [

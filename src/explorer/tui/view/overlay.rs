@@ -1,56 +1,86 @@
-//! What lies over the screen: keys, plan, a fault.
+//! What lies over the screen: keys, plan, lessons, the forms of another scene, a message, a fault.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Margin, Rect};
-use ratatui::style::Style;
+use ratatui::layout::{Constraint, Layout, Margin, Rect};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, BorderType, Borders, Clear, Paragraph, Widget, Wrap};
+use ratatui::widgets::{Borders, Clear, Paragraph, Widget, Wrap};
 
 use crate::tui::action::{Action, Group, KEYS, MOUSE};
 use crate::tui::app::{App, ErrandKind};
+use crate::tui::choice::{Draft, Form};
 use crate::tui::theme::Role;
-use crate::tui::view::knobs::{SPECIFIC, SYMBOLS};
-use crate::tui::view::{ASCII_BORDER, ascii_text, put};
+use crate::tui::view::knobs::speeds::{SPECIFIC, SYMBOLS};
+use crate::tui::view::panel::bordered;
+use crate::tui::view::place::{folded, put, rows_from};
 
-/// Draws a box of a wanted size in the middle and gives the room inside.
-pub(super) fn boxed(
-    app: &App,
+/// A box in the middle of a part of the screen.
+struct Overlay<'a> {
+    app: &'a App,
     within: Rect,
-    (width, height): (u16, u16),
-    title: &str,
+    title: String,
+    /// Of its frame.
     role: Role,
-    buffer: &mut Buffer,
-) -> Rect {
-    let theme = app.theme;
-    let (width, height) = (width.min(within.width), height.min(within.height));
-    let area = Rect {
-        x: within.x + (within.width - width) / 2,
-        y: within.y + (within.height - height) / 2,
-        width,
-        height,
-    };
-    Clear.render(area, buffer);
-    // As wide as the screen it needs no sides, which would be a third of what a slow line has to carry of it, and no foot
-    // where nothing is below.
-    let borders = match (area.width == within.width, area.height == within.height) {
-        (true, true) => Borders::TOP,
-        (true, false) => Borders::TOP | Borders::BOTTOM,
-        _ => Borders::ALL,
-    };
-    let block = Block::new()
-        .borders(borders)
-        .border_style(theme.style(role))
-        .title_top(match title {
-            "" => Line::default(),
-            title => Line::styled(format!(" {title} "), theme.style(Role::Title)),
-        });
-    let block = if theme.is_ascii() {
-        block.border_set(ASCII_BORDER)
-    } else {
-        block.border_type(BorderType::Rounded)
-    };
-    block.render(area, buffer);
-    area.inner(Margin::new(2, 1))
+}
+
+impl<'a> Overlay<'a> {
+    fn new(app: &'a App, within: Rect, title: &str) -> Self {
+        let title = app.theme.words(title);
+        let role = Role::Key;
+        Self {
+            app,
+            within,
+            title,
+            role,
+        }
+    }
+
+    /// Draws it in a wanted size and gives the room inside.
+    fn frame(&self, width: u16, height: u16, buffer: &mut Buffer) -> Rect {
+        let (theme, within) = (self.app.theme, self.within);
+        let area = within.centered(Constraint::Length(width), Constraint::Length(height));
+        Clear.render(area, buffer);
+        // As wide as the screen it needs no sides, and no foot where nothing is below.
+        let borders = match (area.width == within.width, area.height == within.height) {
+            (true, true) => Borders::TOP,
+            (true, false) => Borders::TOP | Borders::BOTTOM,
+            _ => Borders::ALL,
+        };
+        let mut block = bordered(theme, borders, self.role);
+        if !self.title.is_empty() {
+            block = block.title_top(theme.line(format!(" {} ", self.title), Role::Title));
+        }
+        block.render(area, buffer);
+        area.inner(Margin::new(2, 1))
+    }
+
+    /// Lines of text in so many columns, folded; what does not fit is reached by the arrows.
+    fn text(mut self, width: u16, lines: &[Line<'static>], closes: &str, buffer: &mut Buffer) {
+        let width = width.min(self.within.width);
+        let columns = usize::from(width.saturating_sub(4)).max(1);
+        let lines: Vec<_> = lines
+            .iter()
+            .flat_map(|line| folded(line, columns))
+            .collect();
+        let hidden = (lines.len() as u16 + 2).saturating_sub(self.within.height);
+        self.titled(hidden, closes);
+        let inner = self.frame(width, lines.len() as u16 + 2, buffer);
+        let shown = lines.iter().skip(usize::from(self.app.scroll.min(hidden)));
+        for (row, line) in (0..inner.height).zip(shown) {
+            put(inner, row, line, buffer);
+        }
+    }
+
+    /// Says in the title how the rest is reached, and which key closes it.
+    fn titled(&mut self, hidden: u16, closes: &str) {
+        let theme = self.app.theme;
+        let more = match hidden {
+            0 => "",
+            _ => theme.pick("↑↓ for more, ", "up, down for more, "),
+        };
+        if !closes.is_empty() {
+            self.title = format!("{} ({more}{closes})", self.title);
+        }
+    }
 }
 
 /// The key table in two columns where they fit; headings go where rows are short, and where even
@@ -62,34 +92,22 @@ pub(super) fn help(app: &App, within: Rect, buffer: &mut Buffer) {
     if lines.len() > usize::from(columns * most) {
         lines.retain(|(heading, _)| *heading != HelpHeading::Yes);
     }
-    let rows = (lines.len() as u16).div_ceil(columns).min(most);
-    let hidden = (lines.len() as u16).saturating_sub(columns * rows);
-    let title = if hidden > 0 {
-        app.theme.pick(
-            "keys (↑↓ for more, ? closes)",
-            "keys (up, down for more, ? closes)",
-        )
-    } else {
-        "keys (? closes)"
-    };
-    let inner = boxed(
-        app,
-        within,
-        (columns * 40 + 4, rows + 2),
-        title,
-        Role::Key,
-        buffer,
-    );
-    let each = inner.width / columns;
-    let shown = lines.iter().skip(usize::from(app.scroll.min(hidden)));
-    for (place, (_, line)) in shown.enumerate() {
-        let (column, row) = (place as u16 / rows.max(1), place as u16 % rows.max(1));
-        if column < columns {
-            let cell = Rect {
-                x: inner.x + column * each,
-                width: each.saturating_sub(1),
-                ..inner
-            };
+    let each = (lines.len() as u16).div_ceil(columns).min(most).max(1);
+    let hidden = (lines.len() as u16).saturating_sub(columns * each);
+    let mut overlay = Overlay::new(app, within, "keys");
+    overlay.titled(hidden, "? closes");
+    let inner = overlay.frame(columns * 40 + 4, each + 2, buffer);
+    let cells = Layout::horizontal(vec![Constraint::Fill(1); usize::from(columns)]).split(inner);
+    let shown: Vec<_> = lines
+        .iter()
+        .skip(usize::from(app.scroll.min(hidden)))
+        .collect();
+    for (cell, lines) in cells.iter().zip(shown.chunks(usize::from(each))) {
+        let cell = Rect {
+            width: cell.width.saturating_sub(1),
+            ..*cell
+        };
+        for (row, (_, line)) in (0..).zip(lines) {
             put(cell, row, line, buffer);
         }
     }
@@ -104,15 +122,10 @@ enum HelpHeading {
 
 fn help_lines(app: &App) -> Vec<(HelpHeading, Line<'static>)> {
     let theme = app.theme;
-    let heading = |name: &'static str| {
-        let line = Line::styled(name, theme.style(Role::Title));
-        (HelpHeading::Yes, line)
-    };
+    let heading = |name: &str| (HelpHeading::Yes, theme.line(name, Role::Title));
     let row = |keys: &str, help: &str, role: Role| {
-        let line = Line::from(vec![
-            Span::styled(format!("{:>7} ", ascii_keys(app, keys)), theme.style(role)),
-            Span::raw(ascii_text(theme, help)),
-        ]);
+        let keys = format!("{:>7} ", ascii_keys(app, keys));
+        let line = Line::from(vec![theme.span(keys, role), Span::raw(theme.words(help))]);
         (HelpHeading::No, line)
     };
     let mut lines = Vec::new();
@@ -125,12 +138,8 @@ fn help_lines(app: &App) -> Vec<(HelpHeading, Line<'static>)> {
     lines.push(heading("Mouse"));
     lines.extend(MOUSE.iter().map(|(what, help)| row(what, help, Role::Key)));
     lines.push(heading("Letters"));
-    lines.extend(
-        SYMBOLS
-            .iter()
-            .chain([&SPECIFIC])
-            .map(|(name, meaning)| row(name, meaning, Role::Strong)),
-    );
+    let letters = SYMBOLS.iter().chain([&SPECIFIC]);
+    lines.extend(letters.map(|(name, meaning)| row(name, meaning, Role::Strong)));
     lines
 }
 
@@ -154,7 +163,7 @@ fn ascii_keys(app: &App, keys: &str) -> String {
         .replace("↑↓", "up dn")
         .replace("⇧←→ ", "")
         .replace("←→", "lt rt");
-    ascii_text(app.theme, &plain)
+    app.theme.words(plain)
 }
 
 /// What is computed, what is not, and why.
@@ -163,160 +172,147 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
     let mut lines = Vec::new();
     let cautions = app.cautions();
     if !cautions.is_empty() {
-        lines.push(Line::styled("Cautions", theme.style(Role::Warn)));
-        lines.extend(
-            cautions
-                .iter()
-                .map(|caution| Line::raw(format!("  {}", ascii_text(theme, &caution.text)))),
-        );
+        lines.push(theme.line("Cautions", Role::Warn));
+        let text = |text: &str| Line::raw(theme.words(format!("  {text}")));
+        lines.extend(cautions.iter().map(|caution| text(&caution.text)));
         lines.push(Line::default());
     }
     if !app.setup.left_out.is_empty() {
-        lines.push(Line::styled(
-            "Not modelled or not needed",
-            theme.style(Role::Warn),
-        ));
+        lines.push(theme.line("Not modelled or not needed", Role::Warn));
         for left in &app.setup.left_out {
-            lines.push(Line::from(vec![
-                Span::styled(
-                    format!("  {}: ", ascii_text(theme, left.stage)),
-                    theme.style(Role::Strong),
-                ),
-                Span::raw(ascii_text(theme, &left.why)),
-            ]));
+            let stage = theme.span(format!("  {}: ", left.stage), Role::Strong);
+            lines.push(Line::from(vec![stage, Span::raw(theme.words(&left.why))]));
         }
         lines.push(Line::default());
     }
-    lines.extend(
-        app.setup
-            .plan_text
-            .lines()
-            .map(|line| Line::raw(ascii_text(theme, line))),
-    );
-    let wide = PLAN_WIDE.min(within.width);
-    let columns = usize::from(wide.saturating_sub(4)).max(1);
-    let rows: Vec<Line> = lines
-        .iter()
-        .flat_map(|line| folded(line, columns))
-        .collect();
-    let tall = (rows.len() as u16 + 2).min(within.height);
-    let hidden = (rows.len() as u16).saturating_sub(tall.saturating_sub(2));
-    let title = if hidden > 0 {
-        theme.pick(
-            "plan (↑↓ for more, i closes)",
-            "plan (up, down for more, i closes)",
-        )
-    } else {
-        "plan (i closes)"
-    };
-    let inner = boxed(app, within, (wide, tall), title, Role::Key, buffer);
-    let shown = rows.iter().skip(usize::from(app.scroll.min(hidden)));
-    for (row, line) in (0..inner.height).zip(shown) {
-        put(inner, row, line, buffer);
-    }
+    let plan = app.setup.plan_text.lines();
+    lines.extend(plan.map(|line| Line::raw(theme.words(line))));
+    Overlay::new(app, within, "plan").text(100, &lines, "i closes", buffer);
 }
 
-/// Width of the plan, in columns.
-const PLAN_WIDE: u16 = 100;
-
-/// A line in rows of so many columns, broken between words; what goes on keeps the indentation, and two columns more.
-fn folded(line: &Line<'static>, columns: usize) -> Vec<Line<'static>> {
-    if line.width() <= columns {
-        return vec![line.clone()];
-    }
-    let text: String = line
-        .spans
-        .iter()
-        .map(|span| span.content.as_ref())
-        .collect();
-    let indent = text.chars().take_while(|c| *c == ' ').count();
-    let styles: Vec<Style> = line
-        .spans
-        .iter()
-        .flat_map(|span| span.content.chars().map(|_| line.style.patch(span.style)))
-        .collect();
-    let letters: Vec<char> = text.chars().collect();
-    let (mut rows, mut from, mut before) = (Vec::new(), 0, 0);
-    while from < letters.len() {
-        let room = columns.saturating_sub(before).max(1);
-        let most = (from + room).min(letters.len());
-        let to = if most == letters.len() {
-            most
-        } else {
-            let space = (from + 1..=most).rev().find(|&k| letters[k] == ' ');
-            space.unwrap_or(most)
-        };
-        let mut spans = vec![Span::raw(" ".repeat(before))];
-        spans.extend((from..to).map(|k| Span::styled(letters[k].to_string(), styles[k])));
-        rows.push(Line::from(spans));
-        from = to + letters[to..].iter().take_while(|c| **c == ' ').count();
-        before = indent + 2;
-    }
-    rows
-}
-
-/// Words that are too long for the last line, in a box at the foot of the screen.
+/// Words that are too long for the last line, in a box at the foot of the screen; gives the rows that it takes.
 pub(super) fn message(app: &App, text: &str, screen: Rect, buffer: &mut Buffer) -> Rect {
-    let theme = app.theme;
     let wide = 100.min(screen.width);
-    let text = text.lines().map(|line| ascii_text(theme, line));
+    let line = |line: &str| app.theme.line(line, Role::Warn);
+    let lines: Vec<_> = text.lines().map(line).collect();
     let columns = usize::from(wide.saturating_sub(4)).max(1);
-    let lines: Vec<String> = text.flat_map(|line| wrapped(&line, columns)).collect();
-    let tall = (lines.len() as u16 + 2).min(screen.height);
-    let foot = Rect {
-        y: screen.bottom() - tall,
-        height: tall,
-        ..screen
+    let tall: usize = lines.iter().map(|line| folded(line, columns).len()).sum();
+    let foot = rows_from(screen, screen.height.saturating_sub(tall as u16 + 2));
+    let overlay = Overlay {
+        role: Role::Warn,
+        ..Overlay::new(app, foot, "")
     };
-    let inner = boxed(app, foot, (wide, tall), "", Role::Warn, buffer);
-    for (row, line) in (0..).zip(lines) {
-        put(
-            inner,
-            row,
-            &Line::styled(line, theme.style(Role::Warn)),
-            buffer,
-        );
-    }
+    overlay.text(wide, &lines, "", buffer);
     foot
-}
-
-/// A line in rows of so many columns, broken between words.
-fn wrapped(line: &str, columns: usize) -> Vec<String> {
-    let mut rows = vec![String::new()];
-    for word in line.split_whitespace() {
-        let last = rows.last().map_or(0, |row| row.chars().count());
-        if last > 0 && last + 1 + word.chars().count() > columns {
-            rows.push(String::new());
-        }
-        if let Some(row) = rows.last_mut() {
-            if !row.is_empty() {
-                row.push(' ');
-            }
-            row.push_str(word);
-        }
-    }
-    rows
 }
 
 /// An engine that failed.
 pub(super) fn fault(app: &App, reason: &str, within: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
-    let wide = 76.min(within.width);
-    let rows = reason.chars().count() as u16 / wide.saturating_sub(6).max(1) + 1;
-    let size = (wide, rows + 6);
-    let inner = boxed(app, within, size, "the run failed", Role::Bad, buffer);
-    let text = vec![
-        Line::styled(reason.to_owned(), theme.style(Role::Bad)),
+    let lines = [
+        theme.line(reason, Role::Bad),
         Line::default(),
         Line::raw("What was recorded until then is kept. The last frame stays on the screen."),
         Line::from(vec![
-            Span::styled("Esc", theme.style(Role::Key)),
+            theme.span("Esc", Role::Key),
             Span::raw(" looks at it, "),
-            Span::styled("q", theme.style(Role::Key)),
+            theme.span("q", Role::Key),
             Span::raw(" quits"),
         ]),
     ];
+    let overlay = Overlay {
+        role: Role::Bad,
+        ..Overlay::new(app, within, "the run failed")
+    };
+    overlay.text(78, &lines, "", buffer);
+}
+
+/// The lessons: one of them begins.
+pub(super) fn lessons(app: &App, within: Rect, buffer: &mut Buffer) {
+    let theme = app.theme;
+    let overlay = Overlay::new(app, within, "lessons (t closes)");
+    let inner = overlay.frame(66, app.lessons.len() as u16 + 4, buffer);
+    for (place, lesson) in app.lessons.iter().enumerate() {
+        let chosen = place == app.lesson;
+        let mark = if chosen { theme.pick("▸", ">") } else { " " };
+        let role = if chosen { Role::Chosen } else { Role::Text };
+        let asked = lesson.beats.iter().filter(|beat| beat.question.is_some());
+        let digit = match place {
+            0..9 => (place + 1).to_string(),
+            _ => " ".to_owned(),
+        };
+        let line = Line::from(vec![
+            theme.span(mark, Role::Chosen),
+            theme.span(format!("{digit} "), Role::Key),
+            theme.span(&lesson.title, role),
+            theme.span(format!("  {} asked", asked.count()), Role::Dim),
+        ]);
+        put(inner, place as u16, &line, buffer);
+    }
+    let keys = theme.pick(
+        "↑↓ choose  Enter or a digit begins  T ends the lesson",
+        "up, down: choose; Enter or a digit begins; T ends the lesson",
+    );
+    let last = inner.height.saturating_sub(1);
+    put(inner, last, &theme.line(keys, Role::Dim), buffer);
+}
+
+/// The form that is open: what only a new run can change, and what its plan says.
+pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
+    /// Rows below the list: one left free, three of words, one of keys.
+    const BELOW: u16 = 5;
+    let theme = app.theme;
+    let Some(draft) = &app.draft else { return };
+    let choices = draft.form.rows();
+    let (title, keys) = match draft.form {
+        Form::Scene => (
+            "change the scene (e closes, E operating point)",
+            theme.pick(
+                "↑↓ choose  ←→ change  Enter runs it  e, Esc leave it",
+                "up, down: choose; left, right: change; Enter runs it; Esc leaves it",
+            ),
+        ),
+        Form::Point => (
+            "operating point (E closes, e scene)",
+            theme.pick(
+                "↑↓ choose  ←→ change  = type  1-9 typical  Enter runs it",
+                "up, down: choose; left, right: change; =: type; 1-9: typical",
+            ),
+        ),
+    };
+    let overlay = Overlay::new(app, within, title);
+    let inner = overlay.frame(66, choices.len() as u16 + BELOW + 1, buffer);
+    // Where not all rows fit, the chosen one is among those that are seen.
+    let seen = usize::from(inner.height.saturating_sub(BELOW - 1)).clamp(1, choices.len());
+    let first = (draft.row + 1).saturating_sub(seen);
+    for (place, row) in (first..choices.len()).take(seen).enumerate() {
+        put(inner, place as u16, &line_of(app, draft, row), buffer);
+    }
+    let typed = draft.typed.as_ref().and_then(|_| draft.allowed(app.units));
+    let (words, role) = match (&typed, &draft.verdict) {
+        (Some(allowed), _) => (allowed, Role::Text),
+        (None, Ok(words)) => (words, Role::Good),
+        (None, Err(reason)) => (reason, Role::Bad),
+    };
+    let text = vec![theme.line(words, role), theme.line(keys, Role::Dim)];
     Paragraph::new(text)
         .wrap(Wrap { trim: true })
-        .render(inner, buffer);
+        .render(rows_from(inner, seen as u16 + 1), buffer);
+}
+
+/// Name and value of a row.
+fn line_of(app: &App, draft: &Draft, row: usize) -> Line<'static> {
+    let theme = app.theme;
+    let choice = draft.form.rows()[row];
+    let chosen = row == draft.row;
+    let role = if chosen { Role::Chosen } else { Role::Text };
+    let value = match &draft.typed {
+        Some(typed) if chosen => format!("= {typed}_"),
+        _ if chosen => format!("◂ {} ▸", choice.shown(draft, app.units)),
+        _ => format!("  {}", choice.shown(draft, app.units)),
+    };
+    Line::from(vec![
+        theme.span(format!("{:<22}", choice.name()), role),
+        theme.span(value, Role::Strong),
+    ])
 }

@@ -3,7 +3,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, PanelKind, PointNow, PointQuantity};
@@ -11,12 +11,13 @@ use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::trace::TraceSample;
 use crate::tui::units::{nice_ceiling, sig_or_dash, tick};
-use crate::tui::view::chart::{CurvePanel, Pen};
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, inside, panel, put, put_right, title};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::chart::{CurvePanel, Pen, Plot, Symbol};
+use crate::tui::view::panel::{panel, title};
+use crate::tui::view::place::{Entry, columns, columns_from, put, put_right, rows, table};
 use asperity_engine::sim::{Frame, Stage};
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {
-    let theme = app.theme;
     let inner = panel(app, areas, PanelKind::Point, heading(app), buffer);
     let frame = app.frame()?;
     let Some(point) = app.point_now() else {
@@ -25,51 +26,27 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
             (Stage::StartUp, _) => "followed once the passage begins",
             (Stage::Passage, _) => "no material point is followed",
         };
-        put(
-            inner,
-            0,
-            &Line::styled(text, theme.style(Role::Dim)),
-            buffer,
-        );
+        put(inner, 0, &app.theme.line(text, Role::Dim), buffer);
         return None;
     };
-    let words = words(areas);
-    let left = Rect {
-        width: words.min(inner.width),
-        ..inner
-    };
-    numbers(app, frame, &point, left, buffer);
+    let left = columns(inner, 0, words(areas));
+    table(app.theme, left, &numbers(app, frame, &point), buffer);
     let area = plot(areas);
     if area.is_empty() {
         return None;
     }
-    let plot = TracePlot { area, x: X_RANGE };
-    let curves = trace(app, frame, plot, buffer);
-    peaks_ticked(app, frame, plot, buffer);
-    axis(app, frame, area, point.depth_m, buffer);
-    curves
+    over(app, area, X_RANGE, buffer)
 }
 
-/// The trace alone, over the places of the picture above it.
-pub(super) fn under_profile(
-    app: &App,
-    frame: &Frame,
-    (area, x): (Rect, [f64; 2]),
-    buffer: &mut Buffer,
-) -> Option<PixelPlot> {
-    let point = app.point_now()?;
-    let plot = TracePlot { area, x };
+/// The trace alone over some x/a: under the profile those of the picture above it.
+pub(super) fn over(app: &App, area: Rect, x: [f64; 2], buffer: &mut Buffer) -> Option<PixelPlot> {
+    let (frame, point) = (app.frame()?, app.point_now()?);
+    let y = range(app, frame);
+    let plot = Plot { area, x, y };
     let curves = trace(app, frame, plot, buffer);
-    peaks_ticked(app, frame, plot, buffer);
-    axis(app, frame, area, point.depth_m, buffer);
+    peaks_ticked(app, frame, &plot, buffer);
+    axis(app, &plot, point.depth_m, buffer);
     curves
-}
-
-/// Where a trace is drawn, and which x/a that is.
-#[derive(Debug, Clone, Copy)]
-struct TracePlot {
-    area: Rect,
-    x: [f64; 2],
 }
 
 /// Columns of the numbers; a narrow screen leaves them to the trace, unless it is all that is shown.
@@ -85,15 +62,10 @@ fn words(areas: &Areas) -> u16 {
 
 /// Where the trace is drawn; empty where there is no room for it.
 fn plot(areas: &Areas) -> Rect {
-    let inner = inside(areas, areas.point);
-    let words = words(areas);
-    let left = words.min(inner.width);
-    let plot = Rect {
-        x: inner.x + left + 6,
-        width: inner.width.saturating_sub(words + 7),
-        height: inner.height.saturating_sub(1),
-        ..inner
-    };
+    let inner = areas.inside(PanelKind::Point);
+    let right = columns_from(inner, words(areas) + 6);
+    let plot = columns(right, 0, right.width.saturating_sub(1));
+    let plot = rows(plot, 0, plot.height.saturating_sub(1));
     if plot.width < 8 || plot.height < 2 {
         return Rect::default();
     }
@@ -108,11 +80,9 @@ pub(super) fn pressed(areas: &Areas, at: Position) -> Option<Action> {
 
 /// A drag along the trace takes the point with it.
 pub(super) fn dragged(areas: &Areas, at: Position) -> Option<Action> {
-    let plot = plot(areas);
-    plot.contains(at).then(|| {
-        let part = f64::from(at.x - plot.x) / f64::from(plot.width - 1);
-        Action::PutPoint(X_RANGE[0] + (X_RANGE[1] - X_RANGE[0]) * part)
-    })
+    let (area, x) = (plot(areas), X_RANGE);
+    let plot = Plot { area, x, y: x };
+    area.contains(at).then(|| Action::PutPoint(plot.x_at(at.x)))
 }
 
 fn heading(app: &App) -> Line<'static> {
@@ -127,65 +97,41 @@ fn heading(app: &App) -> Line<'static> {
     if let Some(point) = app.point_now() {
         let depth = app.units.length().show(point.depth_m, 2);
         let note = format!("body {}, {depth} deep ", point.body);
-        let note = ascii_text(theme, &note);
-        line.push_span(Span::styled("P ", theme.style(Role::Key)));
-        line.push_span(Span::styled(note, theme.style(Role::Dim)));
+        line.push_span(theme.span("P ", Role::Key));
+        line.push_span(theme.span(note, Role::Dim));
     }
     line
 }
 
-fn numbers(app: &App, frame: &Frame, point: &PointNow, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let role = if point.body == 2 {
-        Role::Body2
-    } else {
-        Role::Body1
-    };
+fn numbers(app: &App, frame: &Frame, point: &PointNow) -> [Entry; 8] {
     let pressure = app.units.pressure();
     let sample = point.sample;
-    let crossing = if app.replay.is_some() {
-        "in this crossing"
-    } else {
-        "crossing before"
+    let body = match point.body {
+        2 => Role::Body2,
+        _ => Role::Body1,
+    };
+    let crossing = match app.replay {
+        Some(_) => "in this crossing",
+        None => "crossing before",
     };
     let count = |value: f64| format!("{value:.0}");
-    let lines = [
-        ("peaks so far", count(sample.cycles), Role::Cycles),
-        (
-            crossing,
-            point.closed.map_or_else(|| "–".to_owned(), count),
-            Role::Strong,
-        ),
-        (
-            "counted on average",
-            sig_or_dash(point.average, 3),
-            Role::Strong,
-        ),
-        (
-            "expected on average",
-            sig_or_dash(point.expected, 3),
-            Role::Formula,
-        ),
-        ("x", format!("{:.2} a", sample.x_m / frame.a_m), role),
-        (
-            "pressure",
-            pressure.show(sample.pressure_pa, 3),
-            Role::Pressure,
-        ),
-        ("shear τxz", pressure.show(sample.tau_xz_pa, 2), Role::Shear),
-        (
-            "effective",
-            pressure.show(sample.effective_pa, 3),
-            Role::Text,
-        ),
-    ];
-    for (row, (name, value, role)) in lines.into_iter().enumerate() {
-        let row = row as u16;
-        let name = Line::styled(ascii_text(theme, name), theme.style(Role::Dim));
-        put(area, row, &name, buffer);
-        let value = Line::styled(ascii_text(theme, &value), theme.style(role));
-        put_right(area, row, &value, buffer);
-    }
+    let closed = point.closed.map_or_else(|| "–".to_owned(), count);
+    let (average, expected) = (
+        sig_or_dash(point.average, 3),
+        sig_or_dash(point.expected, 3),
+    );
+    let x = format!("{:.2} a", sample.x_m / frame.a_m);
+    let shown = |value_pa: f64, digits: i32| pressure.show(value_pa, digits);
+    [
+        Entry::new("peaks so far", count(sample.cycles), Role::Cycles),
+        Entry::new(crossing, closed, Role::Strong),
+        Entry::new("counted on average", average, Role::Strong),
+        Entry::new("expected on average", expected, Role::Formula),
+        Entry::new("x", x, body),
+        Entry::new("pressure", shown(sample.pressure_pa, 3), Role::Pressure),
+        Entry::new("shear τxz", shown(sample.tau_xz_pa, 2), Role::Shear),
+        Entry::new("effective", shown(sample.effective_pa, 3), Role::Text),
+    ]
 }
 
 fn value(quantity: PointQuantity, sample: &TraceSample, frame: &Frame) -> f64 {
@@ -202,56 +148,33 @@ fn hertz_pa(x: f64, frame: &Frame) -> f64 {
     frame.p_hertz_pa * (1.0 - x * x).max(0.0).sqrt()
 }
 
-fn trace(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) -> Option<PixelPlot> {
-    let theme = app.theme;
-    let range = range(app, frame);
-    let mut chart = CurvePanel::of(app, plot.area, plot.x, range);
-    let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
+fn trace(app: &App, frame: &Frame, plot: Plot, buffer: &mut Buffer) -> Option<PixelPlot> {
+    let mut chart = CurvePanel::new(plot);
+    let pen = |role: Role, letter: char| Pen::new(app.theme, role, letter);
     let quantity = app.quantity;
-    let points = |samples: &[TraceSample]| -> Vec<(f64, f64)> {
-        samples
-            .iter()
-            .map(|sample| (sample.x_m / frame.a_m, value(quantity, sample, frame)))
-            .collect()
+    let points = |samples: &[TraceSample], frame: &Frame| -> Vec<(f64, f64)> {
+        let place = |sample: TraceSample| (sample.x_m / frame.a_m, value(quantity, &sample, frame));
+        samples.iter().copied().map(place).collect()
     };
-    if matches!(quantity, PointQuantity::Pressure | PointQuantity::Excess) {
-        let fine = usize::from(plot.area.width) * 2;
-        let hertz = (0..=fine).filter_map(|i| {
-            let x = plot.x[0] + (plot.x[1] - plot.x[0]) * i as f64 / fine as f64;
-            let p = match quantity {
-                PointQuantity::Excess => 0.0,
-                _ => hertz_pa(x, frame),
-            };
-            (x.abs() < 1.0).then_some((x, p))
-        });
-        chart.scatter(hertz, pen(Role::Hertz, '.'));
+    let (role, hertz) = match quantity {
+        PointQuantity::Pressure => (Role::Pressure, Some(frame.p_hertz_pa)),
+        PointQuantity::Excess => (Role::Pressure, Some(0.0)),
+        PointQuantity::Shear => (Role::Shear, None),
+        PointQuantity::Effective => (Role::Peaks, None),
+    };
+    if let Some(p_hertz_pa) = hertz {
+        chart.hertz(p_hertz_pa, pen(Role::Hertz, '.'));
     }
     if let Some((ghost, frozen)) = ghost(app) {
-        let frozen_points = ghost.iter().map(|sample| {
-            let y = value(quantity, sample, frozen);
-            (sample.x_m / frozen.a_m, y)
-        });
-        chart.line(frozen_points, pen(Role::Formula, ','));
+        chart.line(points(ghost, frozen), pen(Role::Formula, ','));
     }
-    chart.line(points(app.trace.before()), pen(Role::Border, '.'));
-    let role = match quantity {
-        PointQuantity::Pressure | PointQuantity::Excess => Role::Pressure,
-        PointQuantity::Shear => Role::Shear,
-        PointQuantity::Effective => Role::Peaks,
-    };
-    chart.line(points(app.trace.current()), pen(role, '*'));
-    let curves = chart.render(theme.is_ascii(), buffer);
+    chart.line(points(app.trace.before(), frame), pen(Role::Border, '.'));
+    chart.line(points(app.trace.current(), frame), pen(role, '*'));
+    let curves = chart.render(app, buffer);
     if let Some(last) = app.trace.current().last() {
-        let row = row_of(plot.area, range, value(quantity, last, frame));
-        mark(
-            app,
-            plot,
-            last.x_m / frame.a_m,
-            row,
-            "◆",
-            Role::Strong,
-            buffer,
-        );
+        let y = value(quantity, last, frame).clamp(plot.y[0], plot.y[1]);
+        let here = Symbol::new(app.theme, "◆", "X", Role::Strong);
+        plot.mark(last.x_m / frame.a_m, y, here, buffer);
     }
     curves
 }
@@ -287,28 +210,27 @@ fn range(app: &App, frame: &Frame) -> [f64; 2] {
 }
 
 /// A tick under the trace for each peak that has passed, and its number on the curve where there is room.
-fn peaks_ticked(app: &App, frame: &Frame, plot: TracePlot, buffer: &mut Buffer) {
-    let (area, range) = (plot.area, range(app, frame));
+fn peaks_ticked(app: &App, frame: &Frame, plot: &Plot, buffer: &mut Buffer) {
     let mut free_from = 0;
+    let symbol = Symbol::new(app.theme, "╿", "|", Role::Cycles);
     for tick in app.trace.ticks() {
-        let x = tick.x_m / frame.a_m;
-        let Some(column) = column_of(plot, x) else {
+        let Some(column) = plot.column(tick.x_m / frame.a_m) else {
             continue;
         };
-        mark(app, plot, x, area.height, "╿", Role::Cycles, buffer);
+        symbol.draw((column, plot.area.bottom()), buffer);
         let number = tick.number.to_string();
         let width = number.len() as u16;
-        let first = (column.saturating_sub((width - 1) / 2)).min(area.right() - width);
+        let first = (column.saturating_sub((width - 1) / 2)).min(plot.area.right() - width);
         let Some(sample) = nearest(app.trace.current(), tick.x_m) else {
             continue;
         };
         if first < free_from {
             continue;
         }
-        // Above the curve, or on it where it touches the top.
-        let row = row_of(area, range, value(app.quantity, sample, frame)).saturating_sub(1);
-        let line = Line::styled(number, app.theme.style(Role::Cycles));
-        buffer.set_line(first, area.y + row, &line, width);
+        // Above the curve, or on it where it reaches the top.
+        let row = plot.row(value(app.quantity, sample, frame));
+        let row = row.saturating_sub(1).max(plot.area.y);
+        buffer.set_line(first, row, &app.theme.line(number, Role::Cycles), width);
         free_from = first + width + 1;
     }
 }
@@ -319,62 +241,14 @@ fn nearest(samples: &[TraceSample], x_m: f64) -> Option<&TraceSample> {
     all.min_by(|one, two| away(one).total_cmp(&away(two)))
 }
 
-/// Row of the plot for a value.
-fn row_of(plot: Rect, range: [f64; 2], value: f64) -> u16 {
-    let down = 1.0 - (value - range[0]) / (range[1] - range[0]);
-    (down.clamp(0.0, 1.0) * f64::from(plot.height - 1)).round() as u16
-}
-
-/// Column of the screen for x/a; `None` outside the plot.
-fn column_of(plot: TracePlot, x: f64) -> Option<u16> {
-    let part = (x - plot.x[0]) / (plot.x[1] - plot.x[0]);
-    let column = plot.area.x + (part * f64::from(plot.area.width - 1)).round() as u16;
-    (0.0..=1.0).contains(&part).then_some(column)
-}
-
-fn mark(
-    app: &App,
-    plot: TracePlot,
-    x: f64,
-    row: u16,
-    symbol: &'static str,
-    role: Role,
-    buffer: &mut Buffer,
-) {
-    let Some(column) = column_of(plot, x) else {
-        return;
-    };
-    let ascii = if symbol == "◆" { "X" } else { "|" };
-    if let Some(cell) = buffer.cell_mut((column, plot.area.y + row)) {
-        cell.set_symbol(app.theme.pick(symbol, ascii))
-            .set_style(app.theme.style(role));
-    }
-}
-
-fn axis(app: &App, frame: &Frame, plot: Rect, depth_m: f64, buffer: &mut Buffer) {
+fn axis(app: &App, plot: &Plot, depth_m: f64, buffer: &mut Buffer) {
     let theme = app.theme;
     let pressure = app.units.pressure();
-    let dim = theme.style(Role::Dim);
-    let left = Rect {
-        x: plot.x.saturating_sub(6),
-        width: 5,
-        ..plot
-    };
-    let range = range(app, frame);
-    put_right(
-        left,
-        0,
-        &Line::styled(tick(pressure.of(range[1])), dim),
-        buffer,
-    );
-    let foot = tick(pressure.of(range[0]));
-    put_right(left, plot.height - 1, &Line::styled(foot, dim), buffer);
-    if plot.height >= 4 {
-        put_right(left, 1, &Line::styled(pressure.name, dim), buffer);
-    }
-    if app.quantity != PointQuantity::Pressure && plot.height >= 5 {
+    let ends = plot.y.map(|value| tick(pressure.of(value)));
+    plot.y_ends(theme, &ends, pressure.name, buffer);
+    if app.quantity != PointQuantity::Pressure && plot.area.height >= 5 {
         let depth = app.units.length().show(depth_m, 2);
-        let text = ascii_text(theme, &format!("at depth {depth}"));
-        put_right(plot, 0, &Line::styled(text, dim), buffer);
+        let text = theme.line(format!("at depth {depth}"), Role::Dim);
+        put_right(plot.area, 0, &text, buffer);
     }
 }

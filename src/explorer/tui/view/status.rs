@@ -2,13 +2,16 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Span;
 
-use crate::tui::app::{App, Leading, Trouble, WhyUnconverged};
+use crate::tui::app::{App, Trouble, WhyUnconverged};
 use crate::tui::theme::Role;
 use crate::tui::units::{seconds, sig};
+use crate::tui::view::areas::{Areas, PanelSpacing};
 use crate::tui::view::footer::{hints_shown, recorder};
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, knobs, overlay, put, put_right};
+use crate::tui::view::panel::led;
+use crate::tui::view::place::{columns, columns_from, fitted, put, put_right};
+use crate::tui::view::{knobs, overlay};
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::{
     CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named,
@@ -22,12 +25,9 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     let area = areas.status;
     let mut row = 0;
     if let Some(why) = app.why() {
-        let text = ascii_text(app.theme, &why.in_columns(usize::from(area.width) - 2));
-        let role = match why.of {
-            Leading::Simulated => Role::Strong,
-            Leading::Scaled | Leading::Formula => Role::Formula,
-        };
-        let line = Line::styled(format!(" {text}"), app.theme.style(role));
+        let text = why.in_columns(usize::from(area.width) - 2);
+        let role = led(why.of, Role::Strong);
+        let line = app.theme.line(format!(" {text}"), role);
         put(area, row, &line, buffer);
         row += 1;
     }
@@ -53,36 +53,24 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
 }
 
 fn write(app: &App, area: Rect, row: u16, words: &StatusWords, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let mut spans = vec![Span::raw(" ")];
-    let mut used = 1;
-    for (text, role) in words {
-        let text = ascii_text(theme, text);
-        let span = Span::styled(text, theme.style(*role));
-        if used + span.width() > usize::from(area.width) {
-            break;
-        }
-        used += span.width() + 2;
-        spans.push(span);
-        spans.push(Span::raw("  "));
-    }
-    put(area, row, &Line::from(spans), buffer);
+    let gap = Span::raw("  ");
+    let words = words
+        .iter()
+        .flat_map(|(text, role)| [app.theme.span(text, *role), gap.clone()]);
+    let room = columns_from(area, 1);
+    put(room, row, &fitted(words, room.width), buffer);
 }
 
 fn progress(app: &App, frame: &Frame) -> StatusWords {
     if frame.stage == Stage::StartUp {
         let share = (100.0 * frame.start_up).floor();
-        return vec![
-            (format!("start-up {share:.0} %"), Role::Warn),
-            (
-                match app.setup.scene.lubricant {
-                    Some(_) => "smooth film on finer and finer grids, then roughness",
-                    None => "smooth contact on finer and finer grids, then roughness",
-                }
-                .to_owned(),
-                Role::Text,
-            ),
-        ];
+        let what = match app.setup.scene.lubricant {
+            Some(_) => "film",
+            None => "contact",
+        };
+        let how = format!("smooth {what} on finer and finer grids, then roughness");
+        let share = format!("start-up {share:.0} %");
+        return vec![(share, Role::Warn), (how, Role::Text)];
     }
     let mut words = vec![
         (format!("passage {:.2}", frame.passages), Role::Text),
@@ -113,10 +101,8 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
         words.push((speed, Role::Text));
     }
     if let Some((done, all)) = app.sweep {
-        words.push((
-            format!("sweeping {} {done}/{all}", swept(app.sweeping)),
-            Role::Warn,
-        ));
+        let along = swept(app.sweeping);
+        words.push((format!("sweeping {along} {done}/{all}"), Role::Warn));
     }
     words
 }
@@ -204,36 +190,40 @@ fn regime(metrics: &Metrics) -> (&'static str, Role) {
 fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
     let theme = app.theme;
     let recorder = recorder(app);
-    let room = Rect {
-        width: area.width.saturating_sub(recorder.width() as u16 + 1),
-        ..area
-    };
+    let room = columns(
+        area,
+        0,
+        area.width.saturating_sub(recorder.width() as u16 + 1),
+    );
     put_right(area, row, &recorder, buffer);
     if let Some(typed) = app.typing_line() {
-        let line = Line::styled(
-            format!(" {}", ascii_text(theme, &typed)),
-            theme.style(Role::Chosen),
+        put(
+            room,
+            row,
+            &theme.line(format!(" {typed}"), Role::Chosen),
+            buffer,
         );
-        put(room, row, &line, buffer);
         return;
     }
     if let Some(message) = app.message() {
         // A longer one is laid over the panels above.
         if one_line(message, room.width) {
-            let line = Line::styled(format!(" {message}"), theme.style(Role::Warn));
-            put(room, row, &line, buffer);
+            put(
+                room,
+                row,
+                &theme.line(format!(" {message}"), Role::Warn),
+                buffer,
+            );
         }
         return;
     }
-    let mut spans = vec![Span::raw(" ")];
-    for hint in hints_shown(app, room) {
-        spans.push(Span::styled(hint.key, theme.style(Role::Key)));
-        spans.push(Span::styled(
-            format!(" {}  ", ascii_text(theme, &hint.word)),
-            theme.style(Role::Dim),
-        ));
-    }
-    put(room, row, &Line::from(spans), buffer);
+    let hints = hints_shown(app, room).into_iter();
+    let spans = hints.flat_map(|hint| {
+        let word = theme.span(format!(" {}  ", hint.word), Role::Dim);
+        [theme.span(hint.key, Role::Key), word]
+    });
+    let line = spans.collect();
+    put(columns_from(room, 1), row, &line, buffer);
 }
 
 fn one_line(message: &str, columns: u16) -> bool {

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::error::SweepError;
-use super::Existing;
 use crate::program::BUILD;
 use asperity_engine::files::{identity, open_plain, read_up_to};
 
@@ -18,13 +17,12 @@ const LOCK: &str = "sweep.lock";
 pub(super) const TEMPORARY: &str = "temporary-";
 
 /// Files with one name each.
-const NAMES: [&str; 8] = [
+const NAMES: [&str; 7] = [
     "sweep.toml",
     "base.toml",
     MARK,
     LOCK,
     "table.csv",
-    "table.parquet",
     "seconds.csv",
     "path.csv",
 ];
@@ -36,6 +34,17 @@ const LONGEST: u64 = 1 << 20;
 pub(super) fn text(path: &Path) -> Option<String> {
     let bytes = read_up_to(path, LONGEST).ok()?;
     String::from_utf8(bytes).ok()
+}
+
+/// What to do about a folder that holds cases already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Existing {
+    /// Refuse it.
+    Refuse,
+    /// Go on where they end.
+    Resume,
+    /// Throw them away.
+    Replace,
 }
 
 /// What the folder of a sweep is marked with.
@@ -175,57 +184,49 @@ fn take_away(folder: &Path, such: impl Fn(&str) -> bool) -> Result<(), SweepErro
 #[derive(Debug, Clone)]
 pub(super) struct Lock(#[expect(dead_code, reason = "held")] Option<Arc<File>>);
 
-/// Whether others are in the folder.
-pub(super) enum Company {
-    /// Nobody, and nobody can come in before [`Lock::share`].
-    Alone(Option<File>),
-    /// Other shards.
-    Others(Option<File>),
+/// An entry into a folder, before other shards are let in.
+pub(super) struct Entry {
+    /// `None`: the system knows no locks.
+    file: Option<File>,
+    /// Nobody else is there, nor can come in before [`Entry::share`].
+    pub(super) is_alone: bool,
 }
 
-impl Company {
-    /// Enters a folder: to begin in it nobody else may be there. Where the system knows no locks everybody is alone.
-    pub(super) fn enter(root: &Path, existing: Existing) -> Result<Self, SweepError> {
+impl Entry {
+    /// Enters a folder: to begin in it nobody else may be there. Where the system knows no locks everybody begins.
+    pub(super) fn new(root: &Path, existing: Existing) -> Result<Self, SweepError> {
         let path = root.join(LOCK);
+        let failed = |error| SweepError::folder(&path, error);
         if path.exists() {
             // A pipe would wait for somebody.
-            open_plain(&path).map_err(|error| SweepError::folder(&path, error))?;
+            open_plain(&path).map_err(failed)?;
         }
         let mut options = OpenOptions::new();
         options.read(true).write(true).create(true).truncate(false);
-        let file = options
-            .open(&path)
-            .map_err(|error| SweepError::folder(&path, error))?;
-        match file.try_lock() {
-            Ok(()) => Ok(Self::Alone(Some(file))),
-            Err(TryLockError::Error(_)) => Ok(Self::Alone(None)),
+        let file = options.open(&path).map_err(failed)?;
+        let (file, is_alone) = match file.try_lock() {
+            Ok(()) => (Some(file), true),
+            Err(TryLockError::Error(_)) => (None, false),
             Err(TryLockError::WouldBlock) if existing == Existing::Resume => {
                 // Whoever begins lets others in at once.
                 let shared = file.lock_shared();
-                Ok(Self::Others(shared.ok().map(|()| file)))
+                (shared.ok().map(|()| file), false)
             }
-            Err(TryLockError::WouldBlock) => Err(SweepError::folder(
-                root,
-                "another sweep is working in it; --resume and --shard join it",
-            )),
-        }
+            Err(TryLockError::WouldBlock) => {
+                let reason = "another sweep is working in it; --resume and --shard join it";
+                return Err(SweepError::folder(root, reason));
+            }
+        };
+        Ok(Self { file, is_alone })
     }
 
     /// Lets other shards in.
     pub(super) fn share(self) -> Lock {
-        let file = match self {
-            Self::Others(file) => file,
-            Self::Alone(file) => file.filter(|file| {
-                // Taken at once, or by one that begins here, who will find cases or let us in.
-                file.unlock().and_then(|()| file.lock_shared()).is_ok()
-            }),
-        };
+        let file = self.file.filter(|file| {
+            // Taken at once, or by one that begins here, who will find cases or let us in.
+            !self.is_alone || file.unlock().and_then(|()| file.lock_shared()).is_ok()
+        });
         Lock(file.map(Arc::new))
-    }
-
-    /// Whether nobody else can be there.
-    pub(super) fn is_alone(&self) -> bool {
-        matches!(self, Self::Alone(Some(_)))
     }
 }
 

@@ -1,12 +1,48 @@
 //! The three curves: life against S, friction against S, friction against the speed (Stribeck).
 
-use super::{CurveFigure, Place};
+use ratatui::layout::Rect;
+
 use crate::tui::action::Action;
 use crate::tui::app::{App, CurveKind, Leading};
-use crate::tui::dial::Dial;
 use crate::tui::units::{nice_ceiling, sig};
+use crate::tui::view::chart::Plot;
 use asperity_engine::sim::Knob;
 use asperity_session::sweep::{Along, Found};
+
+/// What was simulated.
+pub(super) struct CurvePoint {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    /// Between which y it may lie.
+    pub(super) band: Option<[f64; 2]>,
+}
+
+/// A curve with its axes; places in the units of the axes.
+#[derive(Default)]
+pub(super) struct CurveFigure {
+    pub(super) name: &'static str,
+    /// What a formula says; empty: there is none.
+    pub(super) formula: Vec<(f64, f64)>,
+    /// What was simulated, with the ends of its band.
+    pub(super) points: Vec<CurvePoint>,
+    /// Where the knob is.
+    pub(super) knob: f64,
+    /// The number that leads now.
+    pub(super) now: Option<f64>,
+    pub(super) x: [f64; 2],
+    pub(super) y: [f64; 2],
+    /// Numbers at the lower and upper end of y.
+    pub(super) y_ends: [String; 2],
+    /// Words left, in the middle and right below the axis.
+    pub(super) foot: [String; 3],
+}
+
+impl CurveFigure {
+    pub(super) fn plot(&self, area: Rect) -> Plot {
+        let (x, y) = (self.x, self.y);
+        Plot { area, x, y }
+    }
+}
 
 /// Places of a formula over the range of S.
 const FINE: usize = 120;
@@ -26,19 +62,16 @@ pub(super) fn goes_to(app: &App, x: f64) -> Action {
     match app.curve {
         CurveKind::Life | CurveKind::Friction => Action::GoTo(Knob::SlideRoll, x),
         CurveKind::Stribeck => {
-            let [least, _] = axis(app, Knob::EntrainmentMS).0;
-            Action::GoTo(Knob::EntrainmentMS, 10_f64.powf(x).copysign(least))
+            let [sign, _] = axis(app, Knob::EntrainmentMS).0;
+            Action::GoTo(Knob::EntrainmentMS, 10_f64.powf(x).copysign(sign))
         }
     }
 }
 
-fn dial(app: &App, knob: Knob) -> Option<&Dial> {
-    app.dials.iter().find(|dial| dial.knob == knob)
-}
-
 /// Range and target of a knob.
 fn axis(app: &App, knob: Knob) -> ([f64; 2], f64) {
-    dial(app, knob).map_or(([0.0, 1.0], 0.0), |dial| {
+    let dial = app.dials.iter().find(|dial| dial.knob == knob);
+    dial.map_or(([0.0, 1.0], 0.0), |dial| {
         ([dial.min, dial.max], dial.target)
     })
 }
@@ -51,15 +84,19 @@ fn life(app: &App) -> CurveFigure {
         .map(|s| (s, app.formula_at(s).unwrap_or(f64::NAN).log10()))
         .collect();
     let point = |found: &Found| {
-        let [low, life, high] = found.life?.map(f64::log10);
-        Some((found.at.slide_roll, life, Some([low, high])))
+        let [low, y, high] = found.life?.map(f64::log10);
+        Some(CurvePoint {
+            x: found.at.slide_roll,
+            y,
+            band: Some([low, high]),
+        })
     };
     let points: Vec<_> = app.simulated(Along::SlideRoll).filter_map(point).collect();
     // At ±2 a body stands and the life falls without end: the axis is not for that.
     let known = formula.iter().filter(|place| place.0.abs() < MOVES);
     let known = known.map(|place| place.1);
     let now = app.leading_life().map(f64::log10);
-    let y = decades(known.chain(points.iter().map(|place| place.1)).chain(now));
+    let y = decades(known.chain(points.iter().map(|point| point.y)).chain(now));
     CurveFigure {
         name: "life against S",
         formula,
@@ -68,49 +105,45 @@ fn life(app: &App) -> CurveFigure {
         now,
         x,
         y,
-        y_ends: y.map(power),
-        foot: [
-            format!("S {:.0}", x[0]),
-            "0".to_owned(),
-            format!("{:.0}", x[1]),
-        ],
+        y_ends: y.map(|decade| sig(10_f64.powf(decade), 1)),
+        foot: slide_roll_foot(x),
     }
 }
 
-/// What was simulated of the friction along a knob, and the top of its axis. No formula.
-fn frictions(app: &App, along: Along, x: impl Fn(&Found) -> f64) -> (Vec<Place>, f64) {
-    let point = |found: &Found| (x(found), found.friction, None);
-    let points: Vec<_> = app.simulated(along).map(point).collect();
-    let most = points.iter().map(|place| place.1).fold(0.01, f64::max);
-    (points, nice_ceiling(most))
+fn slide_roll_foot([from, to]: [f64; 2]) -> [String; 3] {
+    [format!("S {from:.0}"), "0".to_owned(), format!("{to:.0}")]
 }
 
-/// Friction now, once it holds for where the knobs are.
-fn friction_now(app: &App) -> Option<f64> {
+/// What was simulated of the friction along a knob, and the friction now, once it holds for where the knobs are. No formula.
+fn simulated_friction(app: &App, along: Along, x: impl Fn(&Found) -> f64) -> CurveFigure {
+    let point = |found: &Found| CurvePoint {
+        x: x(found),
+        y: found.friction,
+        band: None,
+    };
+    let points: Vec<_> = app.simulated(along).map(point).collect();
+    let most = points.iter().map(|point| point.y).fold(0.01, f64::max);
+    let most = nice_ceiling(most);
     let settled = app.leading() == Leading::Simulated;
-    app.frame()
-        .filter(|_| settled)
-        .map(|frame| frame.metrics.friction_coefficient)
+    let frame = app.frame().filter(|_| settled);
+    CurveFigure {
+        points,
+        now: frame.map(|frame| frame.metrics.friction_coefficient),
+        y: [0.0, most],
+        y_ends: ["0".to_owned(), sig(most, 1)],
+        ..CurveFigure::default()
+    }
 }
 
 /// The traction curve.
 fn friction(app: &App) -> CurveFigure {
     let (x, knob) = axis(app, Knob::SlideRoll);
-    let (points, most) = frictions(app, Along::SlideRoll, |found| found.at.slide_roll);
     CurveFigure {
         name: "friction against S",
-        formula: Vec::new(),
-        points,
         knob,
-        now: friction_now(app),
         x,
-        y: [0.0, most],
-        y_ends: ["0".to_owned(), sig(most, 1)],
-        foot: [
-            format!("S {:.0}", x[0]),
-            "0".to_owned(),
-            format!("{:.0}", x[1]),
-        ],
+        foot: slide_roll_foot(x),
+        ..simulated_friction(app, Along::SlideRoll, |found| found.at.slide_roll)
     }
 }
 
@@ -124,9 +157,6 @@ fn stribeck(app: &App) -> CurveFigure {
     } else {
         [ends[1], ends[0]]
     };
-    let (points, most) = frictions(app, Along::Entrainment, |found| {
-        place(found.at.entrainment_m_s)
-    });
     let lambdas = app
         .simulated(Along::Entrainment)
         .filter_map(|found| found.lambda);
@@ -141,27 +171,16 @@ fn stribeck(app: &App) -> CurveFigure {
     let unit = app.units.speed();
     CurveFigure {
         name: "Stribeck",
-        formula: Vec::new(),
-        points,
         knob: place(knob),
-        now: friction_now(app),
         x: slow_and_fast.map(place),
-        y: [0.0, most],
-        y_ends: ["0".to_owned(), sig(most, 1)],
         foot: [
             format!("U {}", sig(unit.of(slow_and_fast[0]), 1)),
             middle,
             unit.show(slow_and_fast[1], 1),
         ],
-    }
-}
-
-/// A power of ten in few letters.
-fn power(decade: f64) -> String {
-    match decade as i32 {
-        0 => "1".to_owned(),
-        1 => "10".to_owned(),
-        other => format!("1e{other}"),
+        ..simulated_friction(app, Along::Entrainment, |found| {
+            place(found.at.entrainment_m_s)
+        })
     }
 }
 

@@ -2,13 +2,13 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Margin, Rect};
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::app::App;
 use crate::tui::choice::Choice;
 use crate::tui::theme::Role;
 use crate::tui::units::sig;
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::place::{Entry, columns_from, put, rows_from, table};
 use asperity_engine::physics::estimate::speed_ratios;
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::{Quantity, named};
@@ -21,74 +21,41 @@ pub(super) fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
     let speed = app.units.speed();
     let (u1, u2) = speed_ratios(metrics.slide_roll);
     let sliding = (u2 - u1).abs();
-    let specific = |own: f64| {
-        let ratio = sliding / own.abs();
-        if ratio.is_finite() {
-            sig(ratio, 2)
-        } else {
-            theme.pick("∞", "inf").to_owned()
-        }
+    let specific = |own: f64| match sliding / own.abs() {
+        ratio if ratio.is_finite() => sig(ratio, 2),
+        _ => "∞".to_owned(),
     };
     let shown = |quantity: &Quantity, digits: i32| app.units.show(quantity, frame, digits);
     let mean = metrics.entrainment_m_s;
+    let a = shown(const { named("a_m") }, 3);
+    let across = match frame.kind {
+        ContactKind::Point => {
+            let b = shown(const { named("b_m") }, 3);
+            Entry::new("b half-width y", b, Role::Text)
+        }
+        ContactKind::Line => Entry::new("uniform along y", String::new(), Role::Dim),
+    };
+    let friction = shown(const { named("friction_coefficient") }, 2);
     let lines = [
-        ("U₁ body 1", speed.show(mean * u1, 3), Role::Body1),
-        ("U₂ body 2", speed.show(mean * u2, 3), Role::Body2),
-        ("ζ₁ = |U₂−U₁|/U₁", specific(u1), Role::Body1),
-        ("ζ₂ = |U₂−U₁|/U₂", specific(u2), Role::Body2),
-        (
-            "a half-width x",
-            shown(const { named("a_m") }, 3),
-            Role::Text,
-        ),
-        match frame.kind {
-            ContactKind::Point => (
-                "b half-width y",
-                shown(const { named("b_m") }, 3),
-                Role::Text,
-            ),
-            ContactKind::Line => ("uniform along y", String::new(), Role::Dim),
-        },
-        (
-            "µ friction",
-            shown(const { named("friction_coefficient") }, 2),
-            Role::Text,
-        ),
+        Entry::new("U₁ body 1", speed.show(mean * u1, 3), Role::Body1),
+        Entry::new("U₂ body 2", speed.show(mean * u2, 3), Role::Body2),
+        Entry::new("ζ₁ = |U₂−U₁|/U₁", specific(u1), Role::Body1),
+        Entry::new("ζ₂ = |U₂−U₁|/U₂", specific(u2), Role::Body2),
+        Entry::new("a half-width x", a, Role::Text),
+        across,
+        Entry::new("µ friction", friction, Role::Text),
     ];
     let area = area.inner(Margin::new(1, 0));
-    for (row, (name, value, role)) in lines.iter().enumerate() {
-        let row = row as u16;
-        let room = usize::from(area.width).saturating_sub(value.chars().count() + 1);
-        // Where the whole name would run into the value its letter is enough.
-        let name = if name.chars().count() > room && !value.is_empty() {
-            name.split(' ').next().unwrap_or(name)
-        } else {
-            name
-        };
-        let name = ascii_text(theme, name);
-        put(
-            area,
-            row,
-            &Line::styled(name, theme.style(Role::Dim)),
-            buffer,
-        );
-        let value = ascii_text(theme, value);
-        put_right(area, row, &Line::styled(value, theme.style(*role)), buffer);
-    }
+    table(theme, area, &lines, buffer);
     if area.width < WORDS {
         return;
     }
-    let below = lines.len() as u16 + 1;
-    let below = below + fixed(app, area, below, buffer);
-    for (row, (name, meaning)) in SYMBOLS.iter().enumerate() {
-        let line = Line::from(vec![
-            Span::styled(
-                format!("{:<5}", ascii_text(theme, name)),
-                theme.style(Role::Strong),
-            ),
-            Span::styled(ascii_text(theme, meaning), theme.style(Role::Dim)),
-        ]);
-        put(area, below + row as u16, &line, buffer);
+    let below = rows_from(area, lines.len() as u16 + 1);
+    let below = rows_from(below, fixed(app, below, buffer));
+    for (row, (name, meaning)) in (0..).zip(SYMBOLS) {
+        let name = theme.span(format!("{:<5}", theme.words(name)), Role::Strong);
+        let line = Line::from(vec![name, theme.span(meaning, Role::Dim)]);
+        put(below, row, &line, buffer);
     }
 }
 
@@ -96,28 +63,22 @@ pub(super) fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
 const WORDS: u16 = 22;
 
 /// What only a new run changes (`e`); the rows used.
-fn fixed(app: &App, area: Rect, from: u16, buffer: &mut Buffer) -> u16 {
-    let theme = app.theme;
-    let scene = &app.setup.scene;
-    let shown = |choice: Choice| choice.of_scene(scene, app.units);
+fn fixed(app: &App, area: Rect, buffer: &mut Buffer) -> u16 {
+    let oil = Choice::Viscosity.of_scene(&app.setup.scene, app.units);
     let lines = [
-        ("lay 1, W/a", lay(app, 0), Role::Body1),
-        ("lay 2, W/a", lay(app, 1), Role::Body2),
-        ("oil", shown(Choice::Viscosity), Role::Film),
+        Entry::new("lay₁ W/a", lay(app, 0), Role::Body1),
+        Entry::new("lay₂ W/a", lay(app, 1), Role::Body2),
+        Entry::new("oil", oil, Role::Film),
     ];
-    if area.height < from + lines.len() as u16 + SYMBOLS.len() as u16 {
+    let count = lines.len() as u16;
+    if area.height < count + SYMBOLS.len() as u16 {
         return 0;
     }
-    for (row, (name, value, role)) in (from..).zip(&lines) {
-        let name = Line::from(vec![
-            Span::styled("e ", theme.style(Role::Key)),
-            Span::styled(*name, theme.style(Role::Dim)),
-        ]);
-        put(area, row, &name, buffer);
-        let value = Line::styled(ascii_text(theme, value), theme.style(*role));
-        put_right(area, row, &value, buffer);
+    table(app.theme, columns_from(area, 2), &lines, buffer);
+    for row in 0..count {
+        put(area, row, &app.theme.line("e", Role::Key), buffer);
     }
-    lines.len() as u16
+    count
 }
 
 /// `transverse 0.43`.

@@ -3,48 +3,48 @@
 use ratatui::buffer::Buffer;
 use ratatui::text::{Line, Span};
 
-use super::{RowAllotment, simulated};
 use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
-use crate::tui::view::{ascii_text, put};
+use crate::tui::view::panel::simulated;
+use crate::tui::view::place::RowAllotment;
+use crate::tui::view::place::put;
 use asperity_engine::scene::CycleBasis;
+use asperity_engine::sim::Metrics;
 
 /// n by formula beside n counted, for both bodies.
 pub(super) fn counts(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let theme = app.theme;
-    let metrics = app.frame().map(|frame| frame.metrics.clone());
-    let metrics = metrics.unwrap_or_default();
-    let bodies = [
-        (
-            "n₁",
-            app.estimate.n_body_1,
-            metrics.n_counted_body_1,
-            Role::Body1,
-        ),
-        (
-            "n₂",
-            app.estimate.n_body_2,
-            metrics.n_counted_body_2,
-            Role::Body2,
-        ),
+    let metrics = app.frame().map(|frame| &frame.metrics);
+    let counted = |of: fn(&Metrics) -> Option<f64>| metrics.and_then(of);
+    let counted = [
+        counted(|metrics| metrics.n_counted_body_1),
+        counted(|metrics| metrics.n_counted_body_2),
     ];
-    for (name, formula, counted, role) in bodies {
+    let formula = [app.estimate.n_body_1, app.estimate.n_body_2];
+    for (body, (name, role)) in [("n₁ ", Role::Body1), ("n₂ ", Role::Body2)]
+        .into_iter()
+        .enumerate()
+    {
         let row = rows.take(1);
         // A figure that is cut is another figure.
-        let counted_word = if row.width < 21 { "cnt. " } else { "counted " };
-        let formula = formula.map_or_else(|| theme.pick("∞", "inf").to_owned(), |n| sig(n, 3));
+        let word = if row.width < 21 { "cnt. " } else { "counted " };
+        let formula = formula[body].map_or_else(|| "∞".to_owned(), |n| sig(n, 3));
         let line = Line::from(vec![
-            Span::styled(format!("{} ", ascii_text(theme, name)), theme.style(role)),
-            Span::styled(format!("{formula:<5}"), theme.style(Role::Formula)),
-            Span::styled(counted_word, theme.style(Role::Dim)),
-            Span::styled(
-                ascii_text(theme, &sig_or_dash(counted, 3)),
-                simulated(app, theme.style(Role::Strong)),
-            ),
+            theme.span(name, role),
+            theme.span(format!("{formula:<5}"), Role::Formula),
+            theme.span(word, Role::Dim),
+            known(app, counted[body], 3, Role::Strong),
         ]);
         put(row, 0, &line, buffer);
     }
+}
+
+/// What the simulation says, as far as it is known.
+fn known(app: &App, value: Option<f64>, digits: i32, role: Role) -> Span<'static> {
+    let mut span = app.theme.span(sig_or_dash(value, digits), role);
+    span.style = simulated(app, span.style);
+    span
 }
 
 /// The life by the count that is not the headline's: the paper's, or that by damage.
@@ -56,14 +56,8 @@ pub(super) fn other_count(app: &App, rows: &mut RowAllotment, buffer: &mut Buffe
         CycleBasis::Damage => ("paper's count", life.detail.life_global),
         CycleBasis::Global | CycleBasis::Peaks => ("by damage", life.detail.life_damage),
     };
-    let theme = app.theme;
-    let line = Line::from(vec![
-        Span::styled(format!("{word} "), theme.style(Role::Dim)),
-        Span::styled(
-            ascii_text(theme, &sig_or_dash(other, 2)),
-            simulated(app, theme.style(Role::Text)),
-        ),
-    ]);
+    let word = app.theme.span(format!("{word} "), Role::Dim);
+    let line = Line::from(vec![word, known(app, other, 2, Role::Text)]);
     put(rows.take(1), 0, &line, buffer);
 }
 
@@ -74,28 +68,25 @@ pub(super) fn comparison(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
     let Some(ratio) = app.against_pinned() else {
         return;
     };
-    let (times, word, role) = if (ratio - 1.0).abs() < 0.005 {
-        (String::new(), "as long as pinned".to_owned(), Role::Text)
-    } else if ratio < 1.0 {
-        (sig(1.0 / ratio, 2), " times shorter".to_owned(), Role::Bad)
+    let (words, role) = if (ratio - 1.0).abs() < 0.005 {
+        ("as long as pinned".to_owned(), Role::Text)
     } else {
-        (sig(ratio, 2), " times longer".to_owned(), Role::Good)
+        let (times, word, role) = match ratio {
+            ..1.0 => (1.0 / ratio, "shorter", Role::Bad),
+            _ => (ratio, "longer", Role::Good),
+        };
+        let than = if row.width >= 32 { " than pinned" } else { "" };
+        (format!("{} times {word}{than}", sig(times, 2)), role)
     };
-    let than = if row.width >= 32 && !times.is_empty() {
-        " than pinned"
-    } else {
-        ""
-    };
-    let line = Line::from(vec![
-        Span::styled(
-            format!("{} ", theme.pick("▼", "P")),
-            theme.style(Role::Warn),
-        ),
-        Span::styled(format!("{times}{word}{than}"), theme.style(role)),
-    ]);
-    put(row, 0, &line, buffer);
+    let mark = theme.span(theme.pick("▼ ", "P "), Role::Warn);
+    put(
+        row,
+        0,
+        &Line::from(vec![mark, theme.span(words, role)]),
+        buffer,
+    );
     let Some(pinned) = &app.pinned else { return };
-    if rows.rest().height >= 20 {
+    if rows.rest.height >= 20 {
         let text = format!(
             "  pinned: {} {} at S {}, p_h {}",
             pinned.leading.name(),
@@ -103,11 +94,6 @@ pub(super) fn comparison(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
             sig(pinned.slide_roll, 2),
             app.units.pressure().show(pinned.p_hertz_pa, 3)
         );
-        put(
-            rows.take(1),
-            0,
-            &Line::styled(text, theme.style(Role::Dim)),
-            buffer,
-        );
+        put(rows.take(1), 0, &theme.line(text, Role::Dim), buffer);
     }
 }

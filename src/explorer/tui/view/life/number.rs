@@ -4,11 +4,14 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::RowAllotment;
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
-use crate::tui::view::{Areas, PanelSpacing, ascii_text, digits, put};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::digits;
+use crate::tui::view::panel::led;
+use crate::tui::view::place::RowAllotment;
+use crate::tui::view::place::{columns_from, fitted, fitting, put};
 
 /// What the number is, for the panel's title: where there is no room beside the figure, against what.
 pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
@@ -23,10 +26,7 @@ pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
 /// The number itself.
 pub(super) fn figure(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     let theme = app.theme;
-    let role = match app.leading() {
-        Leading::Simulated => Role::Strong,
-        Leading::Scaled | Leading::Formula => Role::Formula,
-    };
+    let role = led(app.leading(), Role::Strong);
     let text = short(app.leading_life());
     let area = rows.take(digits::ROWS);
     if app.leading_life().is_none() {
@@ -35,9 +35,9 @@ pub(super) fn figure(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
         } else {
             "no estimate"
         };
-        put(area, 1, &Line::styled(why, theme.style(Role::Dim)), buffer);
+        put(area, 1, &theme.line(why, Role::Dim), buffer);
     } else if theme.is_ascii() {
-        let line = Line::styled(format!(">> {text} <<"), theme.style(Role::Strong));
+        let line = theme.line(format!(">> {text} <<"), Role::Strong);
         put(area, 1, &line, buffer);
     } else {
         digits::render(&text, area, theme.style(role), buffer);
@@ -72,12 +72,14 @@ pub(super) fn model(app: &App, row: Rect, buffer: &mut Buffer) {
             spread,
         ];
     }
-    let fits = |text: &&String| text.chars().count() <= usize::from(row.width);
-    let Some(text) = forms.iter().find(fits).or(forms.last()) else {
-        return;
-    };
-    let line = Line::styled(ascii_text(theme, text), theme.style(Role::Dim));
-    put(row, 0, &line, buffer);
+    let words = fitting(forms.iter().map(String::as_str), usize::from(row.width));
+    let words = words.or(forms.last().map(String::as_str));
+    put(
+        row,
+        0,
+        &theme.line(words.unwrap_or_default(), Role::Dim),
+        buffer,
+    );
 }
 
 /// Whether the large figure's source stands beside it.
@@ -87,13 +89,11 @@ enum Beside {
     Nothing,
 }
 
-fn source(app: &App) -> (&'static str, Role) {
+/// Where the number comes from.
+fn source(app: &App, gap: &str) -> Span<'static> {
     let leading = app.leading();
-    let role = match leading {
-        Leading::Simulated => Role::Good,
-        Leading::Scaled | Leading::Formula => Role::Formula,
-    };
-    (leading.name(), role)
+    let words = format!("{}{gap}", leading.name());
+    app.theme.span(words, led(leading, Role::Good))
 }
 
 /// Beside the large figure: where the number comes from.
@@ -107,17 +107,10 @@ fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) -> Beside {
     if area.width < used + 16 || app.leading_life().is_none() {
         return Beside::Nothing;
     }
-    let right = Rect {
-        x: area.x + used,
-        width: area.width - used,
-        ..area
-    };
-    let dim = theme.style(Role::Dim);
-    let (word, role) = source(app);
-    put(right, 0, &Line::styled(word, theme.style(role)), buffer);
-    let of = ascii_text(theme, "× smooth rolling");
-    put(right, 1, &Line::styled(of, dim), buffer);
-    put(right, 2, &Line::styled("at the same load", dim), buffer);
+    let right = columns_from(area, used);
+    put(right, 0, &source(app, "").into(), buffer);
+    put(right, 1, &theme.line("× smooth rolling", Role::Dim), buffer);
+    put(right, 2, &theme.line("at the same load", Role::Dim), buffer);
     Beside::Source
 }
 
@@ -127,52 +120,37 @@ fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
     if app.leading_life().is_none() {
         return Line::default();
     }
-    let (word, role) = source(app);
-    let mut spans = Vec::new();
-    let mut used = 0;
-    let mut add = |text: String, role: Role| {
-        let text = ascii_text(theme, &text);
-        let length = text.chars().count();
-        if used + length <= usize::from(width) {
-            used += length;
-            spans.push(Span::styled(text, theme.style(role)));
-        }
-    };
-    let formula = sig_or_dash(app.estimate.formula.life(), 2);
-    match (app.leading(), app.life()) {
+    let formula = format!("  formula {}", sig_or_dash(app.estimate.formula.life(), 2));
+    let formula = theme.span(formula, Role::Formula);
+    let parts = match (app.leading(), app.life()) {
         (Leading::Simulated, Some(life)) => {
             let (low, high) = (life.life_relative_low, life.life_relative_high);
             let band = format!("{}–{}", sig(low, 2), sig(high, 2));
-            match beside {
-                Beside::Source => add(format!("num. error {band}"), Role::Text),
-                Beside::Nothing if word.len() + 1 + band.chars().count() <= usize::from(width) => {
-                    add(format!("{word} "), role);
-                    add(band, Role::Text);
-                }
-                Beside::Nothing => {
-                    add("sim. ".to_owned(), role);
-                    add(band, Role::Text);
-                }
-            }
-            add(format!("  formula {formula}"), Role::Formula);
+            let band = theme.span(band, Role::Text);
+            let source = source(app, " ");
+            let name = match beside {
+                Beside::Source => theme.span("num. error ", Role::Text),
+                Beside::Nothing if source.width() + band.width() <= usize::from(width) => source,
+                Beside::Nothing => Span::styled("sim. ", source.style),
+            };
+            vec![name, band, formula]
         }
         (leading, life) => {
+            let settling = match life {
+                Some(life) => format!("settling {}", sig(life.life_relative, 2)),
+                None => "not simulated".to_owned(),
+            };
+            let mut parts = vec![theme.span(settling, Role::Dim)];
             if beside == Beside::Nothing {
-                add(format!("{word} "), role);
-            }
-            match life {
-                Some(life) => add(
-                    format!("settling {}", sig(life.life_relative, 2)),
-                    Role::Dim,
-                ),
-                None => add("not simulated".to_owned(), Role::Dim),
+                parts.insert(0, source(app, " "));
             }
             if leading == Leading::Scaled {
-                add(format!("  formula {formula}"), Role::Formula);
+                parts.push(formula);
             }
+            parts
         }
-    }
-    Line::from(spans)
+    };
+    fitted(parts, width)
 }
 
 /// A number short enough for large figures.

@@ -2,12 +2,12 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
 use crate::tui::units::sig_or_dash;
-use crate::tui::view::{ascii_text, put, put_right};
+use crate::tui::view::place::{fitting, put, put_right};
 use asperity_engine::sim::{Caution, CautionCode};
 
 /// The weightiest caution, and how many more there are behind `i`: in its own words where they fit, else by its name.
@@ -28,21 +28,17 @@ pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
     };
     let taken = if row.width < BESIDE { FORMULA } else { 0 };
     let room = usize::from(row.width).saturating_sub(more.len() + 2 + taken);
-    let text = ascii_text(theme, &first.text);
-    let text = if text.chars().count() <= room {
-        text
-    } else {
-        name(first).to_owned()
-    };
+    let text = theme.words(&first.text);
+    let text = fitting([text.as_str(), name(first)], room).unwrap_or(name(first));
     let line = Line::from(vec![
-        Span::styled(format!("{mark}{text}"), theme.style(role)),
-        Span::styled(more, theme.style(Role::Key)),
+        theme.span(format!("{mark}{text}"), role),
+        theme.span(more, Role::Key),
     ]);
     put(row, 0, &line, buffer);
     // Where there was no room for the formula's number beside the simulation's, it stands here.
     if row.width < BESIDE && app.leading() == Leading::Simulated {
         let formula = format!("formula {}", sig_or_dash(app.estimate.formula.life(), 2));
-        let formula = Line::styled(formula, theme.style(Role::Formula));
+        let formula = theme.line(formula, Role::Formula);
         if line.width() + formula.width() < usize::from(row.width) {
             put_right(row, 0, &formula, buffer);
         }

@@ -2,13 +2,13 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::Line;
 
 use super::raster::MapWindow;
 use crate::tui::app::{App, MapKind};
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
-use crate::tui::view::{ascii_text, put_right};
+use crate::tui::view::chart::Plot;
+use crate::tui::view::place::{columns, put_right};
 use asperity_engine::math::number::ticks;
 use asperity_engine::sim::Frame;
 
@@ -26,80 +26,47 @@ pub(super) fn draw(
     app: &App,
     frame: &Frame,
     window: &MapWindow,
-    (image, inner): (Rect, Rect),
+    image: Rect,
+    inner: Rect,
     buffer: &mut Buffer,
 ) {
     let [left, below] = room(inner);
     // Above the motion's row.
-    let foot = inner.bottom().saturating_sub(2);
+    let foot = inner.height.saturating_sub(2);
+    let plot = Plot {
+        area: image,
+        x: window.x,
+        y: [window.y[1], window.y[0]],
+    };
     if below > 0 {
-        along(app, window, image, foot, buffer);
+        plot.half_widths(app.theme, inner.y + foot, buffer);
     }
     if left > 0 {
-        let cells = Rect {
-            width: left - 1,
-            ..inner
-        };
-        downwards(app, frame, window, (image, cells), buffer);
+        let cells = columns(inner, 0, left - 1);
+        downwards(app, frame, &plot, cells, buffer);
         if below > 0 {
             // The corner says what the numbers above it are.
-            number(app, cells, foot, down(app, frame).name, buffer);
-        }
-    }
-}
-
-fn number(app: &App, cells: Rect, row: u16, text: &str, buffer: &mut Buffer) {
-    let line = Line::styled(ascii_text(app.theme, text), app.theme.style(Role::Dim));
-    put_right(cells, row - cells.y, &line, buffer);
-}
-
-/// x/a below the map.
-fn along(app: &App, window: &MapWindow, image: Rect, row: u16, buffer: &mut Buffer) {
-    let style = app.theme.style(Role::Dim);
-    let mut free_from = image.x;
-    for x in ticks(
-        window.x[0],
-        window.x[1],
-        usize::from(image.width / 8).max(2),
-    ) {
-        let text = if x == 0.0 {
-            "0".to_owned()
-        } else {
-            format!("{}a", tick(x))
-        };
-        let part = (x - window.x[0]) / (window.x[1] - window.x[0]);
-        let width = text.len() as u16;
-        let centre = image.x + (part * f64::from(image.width.saturating_sub(1))).round() as u16;
-        let first = centre.saturating_sub(width / 2).max(image.x);
-        let first = first.min(image.right().saturating_sub(width));
-        if first >= free_from {
-            buffer.set_line(first, row, &Line::styled(text, style), width);
-            free_from = first + width + 1;
+            let name = app.theme.line(down(app, frame).name, Role::Dim);
+            put_right(cells, foot, &name, buffer);
         }
     }
 }
 
 /// y/b, depth or way at the left of the map.
-fn downwards(
-    app: &App,
-    frame: &Frame,
-    window: &MapWindow,
-    (image, cells): (Rect, Rect),
-    buffer: &mut Buffer,
-) {
+fn downwards(app: &App, frame: &Frame, plot: &Plot, cells: Rect, buffer: &mut Buffer) {
     let scale = down(app, frame);
-    let ends = window.y.map(|y| y * scale.per_window);
-    let about = usize::from(image.height / 3).clamp(1, 5);
+    let ends = plot.y.map(|y| y * scale.per_window);
+    let about = usize::from(plot.area.height / 3).clamp(1, 5);
     let mut free_from = 0;
     let mut values = ticks(ends[0].min(ends[1]), ends[0].max(ends[1]), about);
-    if ends[0] > ends[1] {
+    if ends[0] < ends[1] {
         values.reverse();
     }
     for value in values {
-        let part = (value - ends[0]) / (ends[1] - ends[0]);
-        let row = image.y + (part * f64::from(image.height.saturating_sub(1))).round() as u16;
+        let row = plot.row(value / scale.per_window);
         if row >= free_from {
-            number(app, cells, row, &tick(value), buffer);
+            let number = app.theme.line(tick(value), Role::Dim);
+            put_right(cells, row - cells.y, &number, buffer);
             free_from = row + 1;
         }
     }

@@ -1,12 +1,14 @@
 //! What a map is of, in the frame of its panel.
 
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use super::profile;
-use crate::tui::app::{App, MapKind, Zoom};
+use crate::tui::app::{App, MapKind, PanelKind, Zoom};
 use crate::tui::theme::Role;
 use crate::tui::units::sig;
-use crate::tui::view::{Areas, ascii_text, inside, title};
+use crate::tui::view::areas::Areas;
+use crate::tui::view::panel::title;
+use crate::tui::view::place::fitting;
 
 /// The map's name, and as many words about it as there is room for.
 pub(super) fn heading(app: &App, areas: &Areas) -> Line<'static> {
@@ -14,15 +16,14 @@ pub(super) fn heading(app: &App, areas: &Areas) -> Line<'static> {
     if app.is_frozen {
         let slide_roll = app.frame().map_or(0.0, |frame| frame.metrics.slide_roll);
         let text = format!(" frozen: {} at S {slide_roll:.2} ", app.map.name());
-        return Line::styled(ascii_text(theme, &text), theme.style(Role::Formula));
+        return theme.line(&text, Role::Formula);
     }
     let mut line = title(theme, "m", app.map.name());
     if app.map == MapKind::Profile {
-        let (area, _) = profile::rooms(inside(areas, areas.map));
+        let (area, _) = profile::rooms(areas.inside(PanelKind::Map));
         let times = profile::exaggeration(app, area);
         let note = format!("y = 0, heights × {} ", sig(times, 2));
-        let note = ascii_text(theme, &note);
-        line.push_span(Span::styled(note, theme.style(Role::Dim)));
+        line.push_span(theme.span(note, Role::Dim));
         return line;
     }
     let notes: &[&str] = match (app.map, app.zoom) {
@@ -37,11 +38,7 @@ pub(super) fn heading(app: &App, areas: &Areas) -> Line<'static> {
     };
     // As many words as there is room for, beside the key at the right.
     let room = usize::from(areas.map.width).saturating_sub(line.width() + 5);
-    let fits = |note: &&&str| note.chars().count() <= room;
-    let note = notes.iter().find(fits).copied().unwrap_or_default();
-    line.push_span(Span::styled(
-        ascii_text(theme, note),
-        theme.style(Role::Dim),
-    ));
+    let note = fitting(notes.iter().copied(), room).unwrap_or_default();
+    line.push_span(theme.span(note, Role::Dim));
     line
 }

@@ -2,12 +2,13 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::Line;
 
 use crate::tui::app::App;
 use crate::tui::theme::Role;
 use crate::tui::units::sig;
-use crate::tui::view::{Areas, PanelSpacing, put, put_right};
+use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::chart::Symbol;
+use crate::tui::view::place::{columns, put, put_right, rows};
 use asperity_engine::sim::Frame;
 
 /// Both bodies' motion: chevrons that travel as far as the body does, in the picture's scale.
@@ -20,71 +21,60 @@ pub(super) fn motion(app: &App, frame: &Frame, areas: &Areas, inner: Rect, buffe
         ("1", mean * (1.0 - slide), Role::Body1),
     ];
     let last = inner.height.saturating_sub(1);
-    if areas.density == PanelSpacing::Full {
-        for ((name, speed, role), row) in bodies.into_iter().zip([0, last]) {
-            let row = Rect {
-                y: inner.y + row,
-                height: 1,
-                ..inner
-            };
-            strip(app, frame, name, speed, role, row, buffer);
-        }
-        return;
-    }
     let half = inner.width / 2;
-    for ((name, speed, role), x) in bodies.into_iter().zip([0, half + 1]) {
-        let row = Rect {
-            x: inner.x + x,
-            y: inner.y + last,
-            width: half.saturating_sub(1),
-            height: 1,
-        };
-        strip(app, frame, name, speed, role, row, buffer);
+    let places = match areas.density {
+        PanelSpacing::Full => [rows(inner, 0, 1), rows(inner, last, 1)],
+        PanelSpacing::Compact => {
+            [0, half + 1].map(|x| columns(rows(inner, last, 1), x, half.saturating_sub(1)))
+        }
+    };
+    for ((name, speed_m_s, role), row) in bodies.into_iter().zip(places) {
+        // One column is about a tenth of a half-width: slow enough to follow, and both bodies alike.
+        let travelled = speed_m_s * frame.time_s / (0.1 * frame.a_m.max(1e-12));
+        strip(app, name, speed_m_s, travelled, role, row, buffer);
     }
 }
 
-/// Columns from one chevron to the next.
-const PITCH: i64 = 4;
-
+/// A body's name, its speed, and between them chevrons that have travelled so many columns.
 fn strip(
     app: &App,
-    frame: &Frame,
     name: &str,
     speed_m_s: f64,
+    travelled: f64,
     role: Role,
     row: Rect,
     buffer: &mut Buffer,
 ) {
+    /// Columns from one chevron to the next.
+    const PITCH: i64 = 4;
     let theme = app.theme;
-    let style = theme.style(role);
-    let body = if row.width >= 30 { "body " } else { "" };
-    let label = Line::styled(format!("{body}{name} "), style);
     let unit = app.units.speed();
-    let value = if row.width >= 30 {
-        format!(" {}", unit.show(speed_m_s, 3))
-    } else {
-        format!(" {}", sig(unit.of(speed_m_s), 3))
+    let (label, value) = match row.width {
+        30.. => (
+            format!("body {name} "),
+            format!(" {}", unit.show(speed_m_s, 3)),
+        ),
+        _ => (
+            format!("{name} "),
+            format!(" {}", sig(unit.of(speed_m_s), 3)),
+        ),
     };
-    let value = Line::styled(value, style);
-    let (before, after) = (label.width() as u16, value.width() as u16);
+    let (label, value) = (theme.line(label, role), theme.line(value, role));
     put(row, 0, &label, buffer);
     put_right(row, 0, &value, buffer);
-    let columns = row.width.saturating_sub(before + after);
-    // One column is about a tenth of a half-width: slow enough to follow, and both bodies alike.
-    let travelled = speed_m_s * frame.time_s / (0.1 * frame.a_m.max(1e-12));
-    let shift = (travelled.rem_euclid(PITCH as f64)) as i64;
+    let (before, after) = (label.width() as u16, value.width() as u16);
+    let free = columns(row, before, row.width.saturating_sub(before + after));
     let arrow = if speed_m_s > 0.0 {
-        theme.pick("›", ">")
+        Symbol::new(theme, "›", ">", role)
     } else if speed_m_s < 0.0 {
-        theme.pick("‹", "<")
+        Symbol::new(theme, "‹", "<", role)
     } else {
-        theme.pick("·", ".")
+        Symbol::new(theme, "·", ".", role)
     };
-    for column in 0..columns {
-        if (i64::from(column) - shift).rem_euclid(PITCH) == 0
-            && let Some(cell) = buffer.cell_mut((row.x + before + column, row.y))
-        {
-            cell.set_symbol(arrow).set_style(style);
+    let shift = travelled.rem_euclid(PITCH as f64) as i64;
+    for (column, at) in (0..).zip(free.positions()) {
+        if (column - shift).rem_euclid(PITCH) == 0 {
+            arrow.draw(at, buffer);
         }
     }
 }

@@ -10,12 +10,10 @@ use crate::tui::app::{App, MapKind};
 use crate::tui::pixels::Bitmap;
 use crate::tui::theme::{Role, Theme};
 use crate::tui::units::tick;
-use crate::tui::view::{ascii_text, put};
+use crate::tui::view::chart::Symbol;
+use crate::tui::view::place::{columns, columns_from, put};
 use asperity_picture::interferogram::colour as fringe;
 use asperity_picture::{AboveRange, CONTACT, Look, Palette, Tint};
-
-/// Part of white in a line over a map.
-const WHITE: f32 = 0.35;
 
 /// What the map shows and how, in the units of the screen.
 pub(super) fn look(app: &App) -> Look {
@@ -27,52 +25,144 @@ pub(super) fn look(app: &App) -> Look {
     Look::of(app.map.subject(), &app.ranges()).in_unit(unit)
 }
 
-/// A pixel, and whether a line lies over it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Pixel {
-    tint: Tint,
-    is_lit: bool,
+/// A map with its colours.
+pub(super) struct MapPainter<'a> {
+    pub(super) kind: MapKind,
+    pub(super) look: &'a Look,
+    pub(super) window: &'a MapWindow,
+    pub(super) raster: &'a Raster,
 }
 
-impl Pixel {
-    pub(super) fn of(
-        look: &Look,
-        raster: &Raster,
-        window: &MapWindow,
-        kind: MapKind,
-        (column, row): (usize, usize),
-    ) -> Self {
-        let value = f64::from(raster.at(column, row));
-        let has_ring = kind.is_plane() && !matches!(kind, MapKind::Fringes | MapKind::Contact);
-        Self {
-            tint: match look.tint(value, raster.spot(column, row)) {
-                Tint::Plain(_) if look.palette == Palette::Fringes => {
-                    Tint::Plain(raster.fringe(column, row))
-                }
-                tint => tint,
-            },
-            is_lit: has_ring && on_ellipse(window, raster, column, row),
+impl MapPainter<'_> {
+    /// Paints it in the terminal's colours, two pixels a cell, or in characters of growing ink.
+    pub(super) fn paint(&self, theme: Theme, image: Rect, buffer: &mut Buffer) {
+        if theme.paints() {
+            half_blocks(image, buffer, |column, row| self.color(theme, column, row));
+        } else {
+            letters(image, buffer, |column, row| self.ink(column, row));
         }
     }
 
-    /// In the terminal's colours.
-    fn color(self, theme: Theme, look: &Look) -> Color {
-        match self.tint {
-            Tint::Share(share) if !self.is_lit => theme.map_color(look.ramp(), share),
-            _ => self.rgb(look).map_or(Color::Reset, |rgb| theme.rgb(rgb)),
+    /// Red, green, blue and opacity of a pixel.
+    pub(super) fn rgba(&self, column: usize, row: usize) -> [u8; 4] {
+        let rgb = self.rgb(column, row);
+        rgb.map_or([0; 4], |[r, g, b]| [r, g, b, 255])
+    }
+
+    fn color(&self, theme: Theme, column: usize, row: usize) -> Color {
+        match self.tint(column, row) {
+            tint @ Tint::Share(_) if !self.is_lit(column, row) => color(theme, self.look, tint),
+            _ => self
+                .rgb(column, row)
+                .map_or(Color::Reset, |rgb| theme.rgb(rgb)),
         }
     }
 
-    fn rgb(self, look: &Look) -> Option<[u8; 3]> {
+    fn rgb(&self, column: usize, row: usize) -> Option<[u8; 3]> {
+        /// Part of white in a line over a map.
+        const WHITE: f32 = 0.35;
         let lit = |c: u8| (f32::from(c) + (255.0 - f32::from(c)) * WHITE) as u8;
-        let rgb = look.paint(self.tint)?;
-        Some(if self.is_lit { rgb.map(lit) } else { rgb })
+        let rgb = self.look.paint(self.tint(column, row))?;
+        Some(if self.is_lit(column, row) {
+            rgb.map(lit)
+        } else {
+            rgb
+        })
     }
 
-    /// Red, green, blue and opacity.
-    pub(super) fn rgba(self, look: &Look) -> [u8; 4] {
-        self.rgb(look).map_or([0; 4], |[r, g, b]| [r, g, b, 255])
+    fn tint(&self, column: usize, row: usize) -> Tint {
+        let value = f64::from(self.raster.at(column, row));
+        match self.look.tint(value, self.raster.spot(column, row)) {
+            Tint::Plain(_) if self.look.palette == Palette::Fringes => {
+                Tint::Plain(self.raster.fringe(column, row))
+            }
+            tint => tint,
+        }
     }
+
+    /// Whether a line lies over a pixel.
+    fn is_lit(&self, column: usize, row: usize) -> bool {
+        !matches!(self.kind, MapKind::Fringes | MapKind::Contact) && self.is_edge(column, row)
+    }
+
+    /// Whether the edge of Hertz's contact passes through a pixel of the plane.
+    fn is_edge(&self, column: usize, row: usize) -> bool {
+        let Self { window, raster, .. } = self;
+        let x = window.x_at((column as f64 + 0.5) / raster.columns as f64);
+        let y = window.y_at((row as f64 + 0.5) / raster.rows as f64);
+        let pixel = (window.x[1] - window.x[0]) / raster.columns as f64;
+        self.kind.is_plane() && (raster.distance(x, y) - 1.0).abs() < 0.5 * pixel
+    }
+
+    fn ink(&self, column: usize, row: usize) -> &'static str {
+        let share = self.look.share(f64::from(self.raster.at(column, row)));
+        if share.is_nan() {
+            return " ";
+        }
+        match self.kind {
+            MapKind::Contact if self.raster.spot(column, row) => "#",
+            MapKind::Contact if self.is_edge(column, row) => "o",
+            MapKind::Contact => Theme::map_ink(0.3 * share),
+            MapKind::Fringes => fringe_ink(self.raster.fringe(column, row)),
+            _ => Theme::map_ink(inked(self.look, share)),
+        }
+    }
+}
+
+/// A tint in the terminal's colours.
+fn color(theme: Theme, look: &Look, tint: Tint) -> Color {
+    match tint {
+        Tint::Share(share) => theme.map_color(look.ramp(), share),
+        tint => look.paint(tint).map_or(Color::Reset, |rgb| theme.rgb(rgb)),
+    }
+}
+
+/// An interferogram's green stands for its brightness.
+fn fringe_ink([_, green, _]: [u8; 3]) -> &'static str {
+    Theme::map_ink(f32::from(green) / 255.0)
+}
+
+/// Ink of a share: thin film has most, so that where it collapses it stands out from the bath, which has none.
+fn inked(look: &Look, share: f32) -> f32 {
+    if look.above == AboveRange::Dark {
+        1.0 - share
+    } else {
+        share
+    }
+}
+
+/// Writes a character a cell, by its column and row.
+pub(super) fn letters(
+    area: Rect,
+    buffer: &mut Buffer,
+    letter: impl Fn(usize, usize) -> &'static str,
+) {
+    for at in area.positions() {
+        let (column, row) = (usize::from(at.x - area.x), usize::from(at.y - area.y));
+        if let Some(cell) = buffer.cell_mut(at) {
+            cell.set_symbol(letter(column, row));
+        }
+    }
+}
+
+/// A mark at parts of a picture along and down.
+pub(super) fn mark(
+    theme: Theme,
+    image: Rect,
+    part: [f64; 2],
+    symbol: &'static str,
+    buffer: &mut Buffer,
+) {
+    let cells = |part: f64, cells: u16| (part * f64::from(cells)) as u16;
+    let at = (
+        image.x + cells(part[0], image.width),
+        image.y + cells(part[1], image.height),
+    );
+    let mut mark = Symbol::new(theme, symbol, "X", Role::Strong);
+    if theme.paints() {
+        mark.style = Style::new().fg(theme.rgb([255, 255, 255]));
+    }
+    mark.draw(at, buffer);
 }
 
 /// A mark on a picture, white on black.
@@ -85,21 +175,10 @@ pub(super) enum MapMark {
 }
 
 impl MapMark {
-    /// Draws it at a place, with so many pixels to each side.
-    pub(super) fn draw(
-        self,
-        picture: &mut Bitmap,
-        window: &MapWindow,
-        (x, y): (f64, f64),
-        half: f64,
-    ) {
+    /// Draws it at parts of the picture along and down, with so many pixels to each side.
+    pub(super) fn draw(self, picture: &mut Bitmap, [along, down]: [f64; 2], half: f64) {
         /// How far the black around it goes.
         const EDGE: f64 = 1.35;
-        let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
-        let (along, down) = (part(x, window.x), part(y, window.y));
-        if !(0.0..1.0).contains(&along) || !(0.0..1.0).contains(&down) {
-            return;
-        }
         let middle = [along * picture.width as f64, down * picture.height as f64].map(f64::floor);
         for row in 0..picture.height {
             for column in 0..picture.width {
@@ -118,146 +197,69 @@ impl MapMark {
     }
 }
 
-pub(super) fn paint(
-    theme: Theme,
-    raster: &Raster,
-    look: &Look,
-    window: &MapWindow,
-    kind: MapKind,
-    image: Rect,
-    buffer: &mut Buffer,
-) {
-    let pixel = |column: usize, row: usize| {
-        Pixel::of(look, raster, window, kind, (column, row)).color(theme, look)
-    };
-    for row in 0..usize::from(image.height) {
-        for column in 0..usize::from(image.width) {
-            let at = (image.x + column as u16, image.y + row as u16);
-            let Some(cell) = buffer.cell_mut(at) else {
-                continue;
-            };
-            if theme.paints() {
-                let (upper, lower) = (pixel(column, 2 * row), pixel(column, 2 * row + 1));
-                // A blank upper half would be painted in the colour of letters.
-                let symbol = if upper == Color::Reset { "▄" } else { "▀" };
-                let (ink, back) = if upper == Color::Reset {
-                    (lower, upper)
-                } else {
-                    (upper, lower)
-                };
-                cell.set_symbol(if ink == Color::Reset { " " } else { symbol })
-                    .set_fg(ink)
-                    .set_bg(back);
-            } else {
-                let ring = kind.is_plane() && on_ellipse(window, raster, column, row);
-                cell.set_symbol(ink(look, raster, kind, ring, column, row));
-            }
+/// Paints two pixels a cell, by their column and row.
+pub(super) fn half_blocks(area: Rect, buffer: &mut Buffer, pixel: impl Fn(usize, usize) -> Color) {
+    for at in area.positions() {
+        let (column, row) = (usize::from(at.x - area.x), usize::from(at.y - area.y));
+        let (upper, lower) = (pixel(column, 2 * row), pixel(column, 2 * row + 1));
+        // A blank upper half would be painted in the colour of letters.
+        let (symbol, ink, back) = match (upper, lower) {
+            (Color::Reset, Color::Reset) => (" ", upper, lower),
+            (Color::Reset, _) => ("▄", lower, upper),
+            _ => ("▀", upper, lower),
+        };
+        if let Some(cell) = buffer.cell_mut(at) {
+            cell.set_symbol(symbol).set_fg(ink).set_bg(back);
         }
     }
 }
 
-fn ink(
-    look: &Look,
-    raster: &Raster,
-    kind: MapKind,
-    ring: bool,
-    column: usize,
-    row: usize,
-) -> &'static str {
-    let share = look.share(f64::from(raster.at(column, row)));
-    if share.is_nan() {
-        return " ";
-    }
-    match kind {
-        MapKind::Contact if raster.spot(column, row) => "#",
-        MapKind::Contact if ring => "o",
-        MapKind::Contact => Theme::map_ink(0.3 * share),
-        MapKind::Fringes => {
-            let [_, green, _] = raster.fringe(column, row);
-            Theme::map_ink(f32::from(green) / 255.0)
-        }
-        _ => Theme::map_ink(inked(look, share)),
-    }
-}
-
-/// Ink of a share: thin film has most, so that where it collapses it stands out from the bath, which has none.
-fn inked(look: &Look, share: f32) -> f32 {
-    if look.above == AboveRange::Dark {
-        1.0 - share
-    } else {
-        share
-    }
-}
-
-/// Whether the edge of Hertz's contact passes through a pixel.
-fn on_ellipse(window: &MapWindow, raster: &Raster, column: usize, row: usize) -> bool {
-    let x = window.x_at((column as f64 + 0.5) / raster.columns as f64);
-    let y = window.y_at((row as f64 + 0.5) / raster.rows as f64);
-    let pixel = (window.x[1] - window.x[0]) / raster.columns as f64;
-    (raster.distance(x, y) - 1.0).abs() < 0.5 * pixel
-}
-
+/// The bar that says which colour is which value.
 pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buffer: &mut Buffer) {
     if bar.width < 4 || bar.height < 3 {
         return;
     }
-    let pixels = f64::from(2 * bar.height - 1);
+    let last = f64::from(2 * bar.height - 1);
     let [low, high] = look.range;
-    for row in 0..bar.height {
-        let value = |half: u16| high - (high - low) * f64::from(2 * row + half) / pixels;
-        // Its upper edge has the colour of what is above.
-        let above = |half: u16| f64::from(u8::from(row + half == 0)) * 1e-6 * (high - low);
-        let color = |half: u16| {
-            let pixel = Pixel {
-                tint: look.tint(value(half) + above(half), false),
-                is_lit: false,
-            };
-            pixel.color(theme, look)
-        };
-        if let Some(cell) = buffer.cell_mut((bar.x + 1, bar.y + row)) {
-            if theme.paints() {
-                cell.set_symbol("▀").set_fg(color(0)).set_bg(color(1));
-            } else if kind == MapKind::Fringes {
-                let [_, green, _] = fringe(value(0) as f32, 0.0);
-                cell.set_symbol(Theme::map_ink(f32::from(green) / 255.0));
-            } else {
-                cell.set_symbol(Theme::map_ink(inked(look, look.share(value(0)))));
+    let value = |row: usize| high - (high - low) * row as f64 / last;
+    let strip = columns(bar, 1, 1);
+    if theme.paints() {
+        half_blocks(strip, buffer, |_, row| {
+            // Its upper edge has the colour of what is above.
+            let above = f64::from(u8::from(row == 0)) * 1e-6 * (high - low);
+            color(theme, look, look.tint(value(row) + above, false))
+        });
+    } else {
+        letters(strip, buffer, |_, row| {
+            let value = value(2 * row);
+            match kind {
+                MapKind::Fringes => fringe_ink(fringe(value as f32, 0.0)),
+                _ => Theme::map_ink(inked(look, look.share(value))),
             }
-        }
+        });
     }
-    let text = Rect {
-        x: bar.x + 3,
-        width: bar.width - 3,
-        ..bar
-    };
-    let dim = theme.style(Role::Dim);
-    let number = |value: f64| Line::styled(number(theme, look, value, text.width), dim);
+    let text = columns_from(bar, 3);
+    let number = |value: f64| theme.line(number(look, value, text.width), Role::Dim);
     put(text, 0, &number(high), buffer);
-    put(
-        text,
-        1,
-        &Line::styled(ascii_text(theme, look.unit.name), dim),
-        buffer,
-    );
+    put(text, 1, &theme.line(look.unit.name, Role::Dim), buffer);
     if bar.height >= 7 {
         put(text, bar.height / 2, &number(0.5 * (low + high)), buffer);
     }
     put(text, bar.height - 1, &number(low), buffer);
     if kind == MapKind::Contact && bar.height >= 9 {
-        let spot = Line::from(vec![
-            Span::styled(theme.pick("█", "#"), Style::new().fg(theme.rgb(CONTACT))),
-            Span::styled("touch", dim),
-        ]);
-        put(text, bar.height - 3, &spot, buffer);
+        let contact = Style::new().fg(theme.rgb(CONTACT));
+        let spot = Span::styled(theme.pick("█", "#"), contact);
+        let line = Line::from(vec![spot, theme.span("spot", Role::Dim)]);
+        put(text, bar.height - 3, &line, buffer);
     }
 }
 
 /// A number of the legend, which says what of the range's ends holds beyond, where there is room.
-fn number(theme: Theme, look: &Look, value: f64, room: u16) -> String {
+fn number(look: &Look, value: f64, room: u16) -> String {
     let text = if look.above == AboveRange::Dark && value == look.range[1] {
         format!(">{}", tick(look.unit.of(value)))
     } else {
-        ascii_text(theme, &look.number(value))
+        look.number(value)
     };
     if text.chars().count() <= usize::from(room) {
         text

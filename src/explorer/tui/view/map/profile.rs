@@ -2,15 +2,15 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::Line;
 
-use super::paint::MapMark;
-use super::raster::MapWindow;
+use super::paint::{MapMark, half_blocks, letters, mark};
 use crate::tui::app::{App, Zoom};
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
-use crate::tui::view::{ascii_text, point, put, put_right};
+use crate::tui::view::chart::Plot;
+use crate::tui::view::place::{columns_from, fitting, put, put_middle, put_right};
+use crate::tui::view::{place, point};
 use asperity_engine::sim::Frame;
 use asperity_picture::profile::{Matter, ProfileColumn, ProfileScale, SurfaceProfile};
 
@@ -60,19 +60,10 @@ pub(super) fn rooms(inner: Rect) -> (Rect, Option<Rect>) {
     } else {
         rows
     };
-    let profile = Rect {
-        x: inner.x + LEFT,
-        width: inner.width.saturating_sub(LEFT),
-        height: above,
-        ..inner
-    };
-    let below = Rect {
-        y: profile.bottom() + 1,
-        height: rows.saturating_sub(above + 2),
-        ..profile
-    };
+    let drawn = columns_from(inner, LEFT);
+    let below = place::rows(drawn, above + 1, rows.saturating_sub(above + 2));
     let trace = (below.height >= 3).then_some(below);
-    (profile, trace)
+    (place::rows(drawn, 0, above), trace)
 }
 
 /// Both surfaces with the oil between them, and below them the trace of the point that rides on one.
@@ -84,58 +75,35 @@ pub(super) fn side_view(
 ) -> Option<PixelPlot> {
     let profile = of(app, frame)?;
     let (area, below) = rooms(inner);
-    draw(app, (&profile, frame), (area, inner), buffer);
-    point::under_profile(app, frame, (below?, profile.x), buffer)
+    draw(app, &profile, area, buffer);
+    if let Some(part) = point_part(app, &profile, frame).filter(|_| !app.is_in_pixels()) {
+        mark(app.theme, area, part, "◆", buffer);
+    }
+    point::over(app, below?, profile.x, buffer)
 }
 
 /// Draws the profile, where it is not left to the terminal's own pixels, and its numbers.
-fn draw(
-    app: &App,
-    (profile, frame): (&SurfaceProfile, &Frame),
-    (area, inner): (Rect, Rect),
-    buffer: &mut Buffer,
-) {
+fn draw(app: &App, profile: &SurfaceProfile, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
-    let rows = usize::from(area.height) * if theme.paints() { 2 } else { 1 };
-    let columns = if app.is_in_pixels() {
-        Vec::new()
-    } else {
-        profile.columns(usize::from(area.width)).collect()
-    };
-    for (x, column) in (area.x..).zip(&columns) {
-        for row in 0..area.height {
-            let Some(cell) = buffer.cell_mut((x, area.y + row)) else {
-                continue;
-            };
-            let row = usize::from(row);
-            if theme.paints() {
-                let color = |row: usize| theme.rgb(profile.rgb(profile.at(column, row, rows)));
-                cell.set_symbol("▀")
-                    .set_fg(color(2 * row))
-                    .set_bg(color(2 * row + 1));
-            } else {
-                cell.set_symbol(letter(profile.at(column, row, rows)));
-            }
-        }
+    numbers(app, profile, area, buffer);
+    if app.is_in_pixels() {
+        return;
     }
-    numbers(app, profile, area, inner, buffer);
-    let cell = |part: f64, cells: u16| (part * f64::from(cells)) as u16;
-    if !app.is_in_pixels()
-        && let Some([along, down]) = point_part(app, (profile, frame))
-        && let (column, row) = (cell(along, area.width), cell(down, area.height))
-        && let Some(cell) = buffer.cell_mut((area.x + column, area.y + row))
-    {
-        cell.set_symbol(theme.pick("◆", "X"));
-        if theme.paints() {
-            cell.set_fg(theme.rgb([255, 255, 255]));
-        } else {
-            cell.set_style(theme.style(Role::Strong));
-        }
+    let columns: Vec<ProfileColumn> = profile.columns(usize::from(area.width)).collect();
+    let rows = usize::from(area.height);
+    if theme.paints() {
+        half_blocks(area, buffer, |column, row| {
+            theme.rgb(profile.rgb(profile.at(&columns[column], row, 2 * rows)))
+        });
+        return;
     }
+    letters(area, buffer, |column, row| {
+        letter(profile.at(&columns[column], row, rows))
+    });
 }
 
 /// The followed point, riding on its body: parts of the picture along and down.
-fn point_part(app: &App, (profile, frame): (&SurfaceProfile, &Frame)) -> Option<[f64; 2]> {
+fn point_part(app: &App, profile: &SurfaceProfile, frame: &Frame) -> Option<[f64; 2]> {
     let point = app.point_now()?;
     let x = point.sample.x_m / frame.a_m;
     let [lower, upper] = profile.surfaces(x);
@@ -147,96 +115,60 @@ fn point_part(app: &App, (profile, frame): (&SurfaceProfile, &Frame)) -> Option<
 }
 
 /// Heights at the left, x/a and what is what below.
-fn numbers(app: &App, profile: &SurfaceProfile, area: Rect, inner: Rect, buffer: &mut Buffer) {
+fn numbers(app: &App, profile: &SurfaceProfile, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme;
-    let dim = theme.style(Role::Dim);
     let unit = app.units.film();
-    let left = Rect {
-        x: inner.x,
-        width: area.x - inner.x - 1,
-        ..area
+    let y = [-profile.half_m(), profile.half_m()];
+    let plot = Plot {
+        area,
+        x: profile.x,
+        y,
     };
-    let last = area.height.saturating_sub(1);
-    let height = |value: f64| Line::styled(tick(unit.of(value)), dim);
-    put_right(left, 0, &height(profile.half_m()), buffer);
-    put_right(left, last, &height(-profile.half_m()), buffer);
-    if area.height >= 5 {
-        put_right(
-            left,
-            1,
-            &Line::styled(ascii_text(theme, unit.name), dim),
-            buffer,
-        );
-        put_right(left, area.height / 2, &Line::styled("0", dim), buffer);
-    }
+    plot.y_ends(
+        theme,
+        &y.map(|height| tick(unit.of(height))),
+        unit.name,
+        buffer,
+    );
     let foot = Rect {
         y: area.bottom(),
         height: 1,
         ..area
     };
-    let [from, to] = profile.x.map(|x| format!("{} a", sig(x, 2)));
-    put(
-        foot,
-        0,
-        &Line::styled(ascii_text(theme, &from), dim),
-        buffer,
-    );
-    put_right(foot, 0, &Line::styled(to, dim), buffer);
+    let [from, to] = profile
+        .x
+        .map(|x| theme.line(format!("{} a", sig(x, 2)), Role::Dim));
+    put(foot, 0, &from, buffer);
+    put_right(foot, 0, &to, buffer);
     let words = if theme.paints() {
         [
-            "body 2 above, body 1 below, lit by their stress; oil by its pressure; cyan touches",
-            "bodies by stress, oil by pressure; cyan touches",
-            "cyan touches",
+            "body 2 above, body 1 below, lit by their stress; oil by its pressure; cyan: contact",
+            "bodies by stress, oil by pressure; cyan: contact",
+            "cyan: contact",
         ]
     } else {
         [
-            "+ body 2 above, : body 1 below, oil between them; # touches",
-            "+ body 2, : body 1; # touches",
-            "# touches",
+            "+ body 2 above, : body 1 below, oil between them; # contact",
+            "+ body 2, : body 1; # contact",
+            "# contact",
         ]
     };
-    let room = usize::from(foot.width).saturating_sub(16);
-    if let Some(words) = words.iter().find(|words| words.len() <= room) {
-        let start = (usize::from(foot.width) - words.len()) / 2;
-        let middle = Rect {
-            x: foot.x + start as u16,
-            width: words.len() as u16,
-            ..foot
-        };
-        put(middle, 0, &Line::styled(*words, dim), buffer);
+    if let Some(words) = fitting(words, usize::from(foot.width).saturating_sub(16)) {
+        put_middle(foot, 0, &theme.line(words, Role::Dim), buffer);
     }
 }
 
-/// The profile in the terminal's own pixels, so many for a cell.
-fn pixels(profile: &SurfaceProfile, area: Rect, cell: (u16, u16)) -> Bitmap {
-    let side = |cells: u16, each: u16| usize::from(cells) * usize::from(each);
-    let (width, height) = (side(area.width, cell.0), side(area.height, cell.1));
-    let columns: Vec<ProfileColumn> = profile.columns(width).collect();
-    let places = (0..height).flat_map(|row| columns.iter().map(move |column| (column, row)));
-    let rgba = places
-        .flat_map(|(column, row)| {
-            let [r, g, b] = profile.rgb(profile.at(column, row, height));
-            [r, g, b, 255]
-        })
-        .collect();
-    Bitmap {
-        area,
-        width,
-        height,
-        rgba,
-    }
-}
-
-/// The same with the followed point.
+/// The profile with the followed point in the terminal's own pixels, so many for a cell.
 pub(super) fn in_pixels(app: &App, frame: &Frame, area: Rect, cell: (u16, u16)) -> Option<Bitmap> {
     let profile = of(app, frame)?;
-    let mut picture = pixels(&profile, area, cell);
-    if let Some([x, y]) = point_part(app, (&profile, frame)) {
-        let whole = MapWindow {
-            x: [0.0, 1.0],
-            y: [0.0, 1.0],
-        };
-        MapMark::Diamond.draw(&mut picture, &whole, (x, y), 0.6 * f64::from(cell.0));
+    let (width, height) = Bitmap::size(area, cell);
+    let columns: Vec<ProfileColumn> = profile.columns(width).collect();
+    let mut picture = Bitmap::of(area, cell, |column, row| {
+        let [r, g, b] = profile.rgb(profile.at(&columns[column], row, height));
+        [r, g, b, 255]
+    });
+    if let Some(part) = point_part(app, &profile, frame) {
+        MapMark::Diamond.draw(&mut picture, part, 0.6 * f64::from(cell.0));
     }
     Some(picture)
 }

@@ -23,6 +23,14 @@ impl MapWindow {
         self.x[0] + (self.x[1] - self.x[0]) * part
     }
 
+    /// Parts of the width and of the height from the left upper corner; `None` outside.
+    pub(super) fn part(&self, x: f64, y: f64) -> Option<[f64; 2]> {
+        let part = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);
+        let parts = [part(x, self.x), part(y, self.y)];
+        let inside = parts.iter().all(|part| (0.0..1.0).contains(part));
+        inside.then_some(parts)
+    }
+
     /// y (or depth) at a part of the height.
     pub(super) fn y_at(&self, part: f64) -> f64 {
         self.y[0] + (self.y[1] - self.y[0]) * part
@@ -120,7 +128,7 @@ pub(super) fn rasterize(
         }
     }
     let spots = if picture.look.marks_contact {
-        touching(picture, &along, &down)
+        contacts(picture, &along, &down)
     } else {
         Vec::new()
     };
@@ -258,8 +266,8 @@ fn over(span: &PixelSpan, at: impl Fn(usize) -> f32) -> f32 {
     }
 }
 
-/// Which pixels touch.
-fn touching(picture: &Picture, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<bool> {
+/// Which pixels hold asperity contact.
+fn contacts(picture: &Picture, along: &[PixelSpan], down: &[PixelSpan]) -> Vec<bool> {
     let rows = down.iter().flat_map(|vertical| {
         along.iter().map(move |horizontal| {
             vertical

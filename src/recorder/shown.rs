@@ -1,0 +1,65 @@
+//! What the layout has to know of the pictures.
+
+use super::plot::PlotBox;
+use super::tooth::ShownTooth;
+use asperity_engine::scene::{ContactKind, Life, Scene};
+use asperity_engine::sim::Frame;
+use asperity_picture::Scope;
+
+/// What the first frame tells the layout.
+pub(crate) struct ShownViews {
+    /// Whether the run goes on while it is shown.
+    pub(crate) live: bool,
+    /// Time of a passage of 4 a, s; `None` where nothing moves.
+    pub(crate) passage_s: Option<f64>,
+    pub(crate) kind: ContactKind,
+    pub(crate) map: PlotBox,
+    pub(crate) interferogram: PlotBox,
+    pub(crate) centre_line: PlotBox,
+    pub(crate) slice: Option<PlotBox>,
+    /// The same of a line contact over the logarithm of the depth, which is shown in its place.
+    pub(crate) over_log: Option<PlotBox>,
+    pub(crate) trace: Option<PlotBox>,
+    /// Both surfaces, and below them the trace.
+    pub(crate) profile: Option<[[f64; 2]; 2]>,
+    pub(crate) kymograph: PlotBox,
+    /// The tooth that the contact rides along.
+    pub(crate) tooth: Option<ShownTooth>,
+    /// Target and position of the camera, and of the one that looks down on the pressure.
+    pub(crate) camera: Option<[[f64; 3]; 2]>,
+    pub(crate) lecture: Option<[[f64; 3]; 2]>,
+    pub(crate) rough: [bool; 2],
+    /// Bodies whose damage is mapped.
+    pub(crate) damaged: [bool; 2],
+    pub(crate) life: bool,
+    /// Whether a body has a hardness at which it flows.
+    pub(crate) yields: bool,
+}
+
+impl ShownViews {
+    /// Of a run with that first frame, before any of its other pictures is set up.
+    pub(crate) fn new(scene: Option<&Scene>, first: &Frame, scope: &Scope, map: PlotBox) -> Self {
+        let speed = first.metrics.entrainment_m_s.abs();
+        let life = scene.and_then(|scene| scene.life.as_ref());
+        Self {
+            live: false,
+            passage_s: (speed > 0.0).then(|| 4.0 * first.a_m / speed),
+            kind: first.kind,
+            map,
+            interferogram: PlotBox::default(),
+            centre_line: PlotBox::default(),
+            slice: None,
+            over_log: None,
+            trace: None,
+            profile: None,
+            tooth: None,
+            kymograph: PlotBox::default(),
+            camera: None,
+            lecture: None,
+            rough: scope.ranges.rough,
+            damaged: life.map_or([false; 2], Life::maps),
+            life: first.metrics.life.is_some(),
+            yields: first.metrics.yielded_m3.is_some(),
+        }
+    }
+}
