@@ -225,7 +225,6 @@ impl From<SweepError> for Failure {
                 "{error}"
             )),
             SweepError::Folder { .. } => Self::output(miette!(code = "output", "{error}")),
-            SweepError::Threads(_) => Self::stalled(miette!(code = "run", "{error}")),
         }
     }
 }

@@ -36,8 +36,8 @@ fn main() {
 /// What the compiler calls itself.
 fn compiler() -> Vec<u8> {
     let name = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let told = Command::new(name).arg("--version").output();
-    told.map(|output| output.stdout).unwrap_or_default()
+    let output = Command::new(name).arg("--version").output();
+    output.map(|output| output.stdout).unwrap_or_default()
 }
 
 /// All files at or below a path.

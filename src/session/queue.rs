@@ -50,21 +50,14 @@ struct QueueState {
     report: Option<ObserverReport>,
     stats: QueueStats,
     /// Frames that wait no longer.
-    taken: u64,
+    n_delivered: u64,
     /// What the observer says that it kept.
     kept: Option<u64>,
 }
 
-#[derive(Default)]
-struct QueueShared {
-    state: Mutex<QueueState>,
-}
-
-impl QueueShared {
-    /// The state stays consistent between statements, so a panic elsewhere does not spoil it.
-    fn lock(&self) -> MutexGuard<'_, QueueState> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+/// The state stays consistent between statements, so a panic elsewhere does not spoil it.
+fn lock(state: &Mutex<QueueState>) -> MutexGuard<'_, QueueState> {
+    state.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// What the observer's thread takes from.
@@ -78,7 +71,7 @@ struct Inlet {
 
 /// Runs an observer on its own thread behind a bounded queue.
 pub struct Queue {
-    shared: Arc<QueueShared>,
+    state: Arc<Mutex<QueueState>>,
     /// `None`: no more will come.
     messages: Option<SyncSender<Message>>,
     room: SyncSender<()>,
@@ -101,18 +94,18 @@ impl Queue {
         when_full: WhenFull,
         mut observer: Box<dyn Observer>,
     ) -> Result<Self, ObserveError> {
-        let shared = Arc::new(QueueShared::default());
+        let state = Arc::new(Mutex::new(QueueState::default()));
         let capacity = capacity.max(1);
-        shared.lock().stats.capacity = capacity;
-        let (messages, taken) = sync_channel(capacity + EVENT_CAPACITY);
+        lock(&state).stats.capacity = capacity;
+        let (messages, to_deliver) = sync_channel(capacity + EVENT_CAPACITY);
         let (room, places) = sync_channel(capacity);
         let (end, ended) = sync_channel(1);
         let inlet = Inlet {
-            messages: taken,
+            messages: to_deliver,
             room: places,
             _ended: end,
         };
-        let on_thread = Arc::clone(&shared);
+        let on_thread = Arc::clone(&state);
         let label = name.to_owned();
         let thread = std::thread::Builder::new()
             .name(name.to_owned())
@@ -125,7 +118,7 @@ impl Queue {
                 ObserveError::new(name, format!("its thread did not start: {error}"))
             })?;
         Ok(Self {
-            shared,
+            state,
             messages: Some(messages),
             room,
             ended,
@@ -153,12 +146,12 @@ impl Queue {
 
     /// How the queue was used so far.
     pub fn stats(&self) -> QueueStats {
-        self.shared.lock().stats
+        lock(&self.state).stats
     }
 
     /// Why nothing is taken any more.
     fn failure(&self) -> ObserveError {
-        let error = self.shared.lock().error.clone();
+        let error = lock(&self.state).error.clone();
         error.unwrap_or_else(|| ObserveError::new(&self.name, "was finished already"))
     }
 
@@ -170,7 +163,7 @@ impl Queue {
             Err(TrySendError::Full(value)) => {
                 let since = Instant::now();
                 let sent = channel.send(value);
-                let mut state = self.shared.lock();
+                let mut state = lock(&self.state);
                 state.stats.waits += 1;
                 state.stats.waited += since.elapsed();
                 drop(state);
@@ -184,11 +177,11 @@ impl Queue {
     fn give_up(&self) -> Option<ObserverReport> {
         let waited = self.ended.recv_timeout(self.patience?);
         (waited == Err(RecvTimeoutError::Timeout)).then(|| {
-            let state = self.shared.lock();
+            let state = lock(&self.state);
             ObserverReport {
                 output: self.name.clone(),
-                frames: state.taken,
-                skipped: state.stats.skipped + state.stats.frames - state.taken,
+                frames: state.n_delivered,
+                skipped: state.stats.skipped + state.stats.frames - state.n_delivered,
                 bytes: 0,
                 note: "it no longer took anything and was left alone".to_owned(),
                 queue: Some(state.stats),
@@ -211,9 +204,9 @@ impl Queue {
 
 impl Observer for Queue {
     fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
-        let (tell, begun) = sync_channel(1);
+        let (answer, begun) = sync_channel(1);
         let messages = self.messages.as_ref().ok_or_else(|| self.failure())?;
-        self.put(messages, Message::Begin(Box::new(context.clone()), tell))?;
+        self.put(messages, Message::Begin(Box::new(context.clone()), answer))?;
         begun.recv().map_err(|_| {
             // The error is there when the thread has ended.
             let _ = self.ended.recv();
@@ -224,13 +217,13 @@ impl Observer for Queue {
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
         let messages = self.messages.as_ref().ok_or_else(|| self.failure())?;
         let has_place = self.put(&self.room, ())?;
-        let mut state = self.shared.lock();
+        let mut state = lock(&self.state);
         if !has_place {
             state.stats.skipped += 1;
             return Ok(());
         }
         state.stats.frames += 1;
-        let depth = (state.stats.frames - state.taken) as usize;
+        let depth = (state.stats.frames - state.n_delivered) as usize;
         state.stats.max_depth = state.stats.max_depth.max(depth);
         drop(state);
         self.put(messages, Message::Frame(Arc::clone(frame)))?;
@@ -242,7 +235,7 @@ impl Observer for Queue {
     }
 
     fn kept(&self) -> Option<u64> {
-        self.shared.lock().kept
+        lock(&self.state).kept
     }
 
     fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
@@ -257,7 +250,7 @@ impl Observer for Queue {
             return Ok(report);
         }
         self.join();
-        let state = self.shared.lock();
+        let state = lock(&self.state);
         let none = || ObserveError::new(&self.name, "ended without a report");
         let error = || state.error.clone().unwrap_or_else(none);
         let mut report = state.report.clone().ok_or_else(error)?;
@@ -279,7 +272,7 @@ impl Drop for Queue {
 }
 
 /// The observer's thread: works off messages until no more will come, or the observer fails or panics.
-fn serve(shared: &QueueShared, inlet: &Inlet, observer: &mut dyn Observer, name: &str) {
+fn serve(state: &Mutex<QueueState>, inlet: &Inlet, observer: &mut dyn Observer, name: &str) {
     // A pause is told once, until the next message.
     let mut is_idle = false;
     loop {
@@ -291,17 +284,17 @@ fn serve(shared: &QueueShared, inlet: &Inlet, observer: &mut dyn Observer, name:
         };
         is_idle = next.is_err();
         if let Ok(Message::Frame(_)) = &next {
-            shared.lock().taken += 1;
+            lock(state).n_delivered += 1;
             // Its place was taken before it was sent.
             let _ = inlet.room.try_recv();
         }
         let is_last = matches!(next, Err(RecvTimeoutError::Disconnected));
         let outcome = catch_unwind(AssertUnwindSafe(|| match next {
-            Ok(message) => deliver(shared, observer, message),
+            Ok(message) => deliver(state, observer, message),
             Err(RecvTimeoutError::Timeout) => observer.idle(),
             Err(RecvTimeoutError::Disconnected) => {
                 let report = observer.finish()?;
-                shared.lock().report = Some(report);
+                lock(state).report = Some(report);
                 Ok(())
             }
         }));
@@ -312,7 +305,7 @@ fn serve(shared: &QueueShared, inlet: &Inlet, observer: &mut dyn Observer, name:
             ))
         });
         let failed = result.is_err();
-        shared.lock().error = result.err();
+        lock(state).error = result.err();
         if is_last || failed {
             return;
         }
@@ -320,21 +313,21 @@ fn serve(shared: &QueueShared, inlet: &Inlet, observer: &mut dyn Observer, name:
 }
 
 fn deliver(
-    shared: &QueueShared,
+    state: &Mutex<QueueState>,
     observer: &mut dyn Observer,
     message: Message,
 ) -> Result<(), ObserveError> {
     match message {
-        Message::Begin(context, tell) => {
+        Message::Begin(context, answer) => {
             observer.begin(&context)?;
             // Who asked may have gone.
-            let _ = tell.send(());
+            let _ = answer.send(());
             Ok(())
         }
         Message::Frame(frame) => {
             let since = Instant::now();
             let written = observer.frame(&frame);
-            let mut state = shared.lock();
+            let mut state = lock(state);
             state.kept = observer.kept();
             state.stats.busy += since.elapsed();
             state.stats.done += 1;

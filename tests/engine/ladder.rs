@@ -251,7 +251,7 @@ fn a_load_is_taken_up_to_the_edge_of_the_domain() {
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
     let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let plan = Plan::new(&scene).unwrap();
-    let most = plan.most_force_n();
+    let most = plan.maximum_force_n();
     let mut sim = Simulation::new(&scene, plan, 1).unwrap();
     let Err(SimError::Knob { value, allowed, .. }) = sim.set(Knob::ForceN, 1.001 * most) else {
         panic!("refused");

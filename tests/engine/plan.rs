@@ -289,7 +289,7 @@ fn loads_and_amplitudes_of_events_are_foreseen() {
     for (twice, once) in edges(&heavy).into_iter().zip(edges(&usual)) {
         assert!((twice / once - 2.0).abs() < 1e-12);
     }
-    assert!(heavy.most_force_n() > 6400.0 && usual.most_force_n() < 6400.0);
+    assert!(heavy.maximum_force_n() > 6400.0 && usual.maximum_force_n() < 6400.0);
     assert_eq!(edges(&with("\"load.force_n\" = 100.0")), edges(&usual));
     let rough = with("\"body_1.surface.amplitude_m\" = 5e-6");
     assert_eq!(

@@ -15,7 +15,7 @@ use asperity_engine::sim::{Frame, Simulation};
 use asperity_explorer::tui::action::Action;
 use asperity_explorer::tui::app::{App, MapKind};
 use asperity_explorer::tui::event::{Pointer, PointerAct};
-use asperity_explorer::tui::pixels::Pixels;
+use asperity_explorer::tui::pixels::Medium;
 use asperity_explorer::tui::theme::{ColorDepth, Glyphs};
 use asperity_explorer::tui::view;
 use asperity_picture::export::{Export, Format};
@@ -156,10 +156,10 @@ fn recorded(contents: &Contents, shown: &Shown, step: i64, columns: usize) -> Ve
 /// The pixels of an exported map: red, green, blue of the axes' inside, and its size.
 fn exported(file: &Path) -> (Vec<Rgb>, [usize; 2]) {
     /// Room around the axes.
-    const LEFT: usize = 92;
-    const ABOVE_THEM: usize = 74;
-    const RIGHT: usize = 116;
-    const BELOW_THEM: usize = 58;
+    const LEFT: usize = 69;
+    const ABOVE_THEM: usize = 87;
+    const RIGHT: usize = 103;
+    const BELOW_THEM: usize = 63;
     let reader = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(file).unwrap()));
     let mut reader = reader.read_info().unwrap();
     let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
@@ -246,7 +246,7 @@ fn compare(scene: &Scene, of_export: &Scene) -> Compared {
     let mut export = Export::create(&pictures, Overwrite::Refuse, &[Format::Png]).unwrap();
     let setup = setup_planned(scene, "a test", &Plan::new(scene).unwrap());
     let mut app = App::new(setup, Vec::new(), theme(ColorDepth::True, Glyphs::Unicode));
-    app.set_pixels(Pixels::Kitty);
+    app.set_medium(Medium::Page);
     app.apply(Action::Zoom);
     recorder.begin(&context(scene)).unwrap();
     export.begin(&context(of_export)).unwrap();

@@ -1,6 +1,6 @@
 //! Sums of numbers that are given by their logarithms: ln Σ w e^a.
 
-/// `ln Σ w e^a`, relative to the greatest term; −∞ for no terms or terms that are all zero.
+/// `ln Σ w e^a`, relative to the largest term; −∞ for no terms or terms that are all zero.
 pub fn ln_sum(terms: impl IntoIterator<Item = (f64, f64)> + Clone) -> f64 {
     let top = terms
         .clone()

@@ -133,7 +133,7 @@ impl Kinematics {
 }
 
 /// Part of full-amplitude crests' damage by Miner's rule: cycles of all heights under a half-ellipse of
-/// pressure, relative to as many at the greatest.
+/// pressure, relative to as many at full height.
 ///
 /// ```text
 /// φ(m) = ½ ∫_{−1}^{1} (1 − x²)^{m/2} dx = (√π/2) Γ(m/2 + 1)/Γ(m/2 + 3/2)

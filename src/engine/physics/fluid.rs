@@ -33,7 +33,7 @@
 
 use crate::math::elementary::{exp, ln};
 
-/// Greatest exponent used for the viscosity.
+/// Maximum exponent used for the viscosity.
 const EXPONENT_CAP: f64 = 300.0;
 /// Roelands' pressure constant, Pa.
 const ROELANDS_P0_PA: f64 = 1.962e8;

@@ -6,9 +6,9 @@
 //! ```
 //! | symbol | meaning | shape |
 //! |---|---|---|
-//! | s | heights over the greatest of them, level taken off | n_y × n_x, x along rows |
+//! | s | heights over their maximum, level taken off | n_y × n_x, x along rows |
 //! | Δ | pixel | m |
-//! | A | greatest departure from the level, as asked; the file's own is [`HeightMap::peak_m`] | m |
+//! | A | maximum departure from the level, as asked; the file's own is [`HeightMap::peak_m`] | m |
 //!
 //! The origin is the middle of the map. Order 3 in Δ, continuous slope (Keys 1981, IEEE Trans. ASSP 29,
 //! 1153-1160); a test measures the order. *Periodic* maps repeat without end, their level is the mean.
@@ -38,16 +38,16 @@ const TAPER: f64 = 0.1;
 /// Half-width, in Rq, of the band about the level that a crossing must leave.
 const DEAD_BAND: f64 = 0.1;
 
-/// Heights on pixels, over the greatest.
+/// Heights on pixels, over the maximum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightMap {
     nx: usize,
     ny: usize,
     shape: Vec<f32>,
     beyond: MapEdge,
-    /// Greatest departure from the level in the file, m.
+    /// Maximum departure from the level in the file, m.
     pub peak_m: f64,
-    /// Root-mean-square departure from the level over the greatest.
+    /// Root-mean-square departure from the level over the maximum.
     pub rms: f64,
     /// Crests along x per pixel: upcrossings of the level, mean over the rows.
     pub crests: f64,

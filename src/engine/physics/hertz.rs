@@ -159,7 +159,7 @@ impl Hertz {
     }
 }
 
-/// Greatest pressure where a wavy elastic surface is pressed by a mean pressure p̄, Pa.
+/// Maximum pressure where a wavy elastic surface is pressed by a mean pressure p̄, Pa.
 ///
 /// ```text
 /// p* = π E* (A/λ)        flattens the wave;  p̄ < p*:  2 √(p̄ p*)  in the middle of a touching strip,  else  p̄ + p*

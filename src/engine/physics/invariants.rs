@@ -55,7 +55,7 @@ impl Stress6 {
         Self::of(self.components().map(|c| c * factor))
     }
 
-    /// Greatest difference between two components of the same name.
+    /// Maximum difference between two components of the same name.
     pub fn distance(self, other: Self) -> f64 {
         let apart = self.plus(other.times(-1.0)).components();
         apart.into_iter().fold(0.0, |worst, c| worst.max(c.abs()))
@@ -92,7 +92,7 @@ impl Stress6 {
         (2.0 / 3.0 * self.j2()).sqrt()
     }
 
-    /// Principal stresses, greatest (most tensile) first.
+    /// Principal stresses, most tensile first.
     pub fn principal(self) -> [f64; 3] {
         let (m, j2) = (self.mean(), self.j2());
         let theta = self.lode_cosine().acos() / 3.0;
@@ -119,7 +119,7 @@ impl Stress6 {
     }
 }
 
-/// Sorting of three numbers, greatest first.
+/// Sorts three numbers, largest first.
 trait SortedDown {
     fn sorted_down(self) -> Self;
 }

@@ -16,7 +16,7 @@
 
 /// a_ISO of a radial ball bearing; `None` outside 0.1 ≤ κ (κ above 4 counts as 4) and `e_C C_u/P ≥ 0`.
 pub fn a_iso_radial_ball(kappa: f64, contamination_load_ratio: f64) -> Option<f64> {
-    /// Greatest value that the standard allows.
+    /// Maximum value that the standard allows.
     const MOST: f64 = 50.0;
     if !kappa.is_finite() || kappa < 0.1 || !(0.0..=1e3).contains(&contamination_load_ratio) {
         return None;

@@ -10,7 +10,7 @@
 //! ```
 //! | symbol | meaning | default |
 //! |---|---|---|
-//! | τ0, z0 | greatest half range of the orthogonal shear along x, and its depth | |
+//! | τ0, z0 | maximum half range of the orthogonal shear along x, and its depth | |
 //! | h | depth exponent | 7/3 |
 //! | σ_u | fatigue limit of the effective stress | 0: none; ISO 281:2007 takes 900 MPa of von Mises |
 //! | z_c | depth above which z^{−h} no longer grows: at a rough surface it would diverge | 0.05 a |
@@ -33,7 +33,7 @@ use super::fatigue::LifeLaw;
 pub enum LifeEquation {
     /// Volume integral of σ^{c e}.
     Zaretsky,
-    /// Greatest orthogonal shear and its depth.
+    /// Maximum orthogonal shear and its depth.
     LundbergPalmgren {
         /// h.
         depth_exponent: f64,
@@ -54,7 +54,7 @@ pub enum LifeEquation {
         /// α.
         hydrostatic: f64,
     },
-    /// Shear amplitude and greatest normal stress of the worst plane.
+    /// Shear amplitude and maximum normal stress of the worst plane.
     Findley {
         /// k.
         normal: f64,

@@ -1,10 +1,10 @@
 //! Multiaxial fatigue criteria on the stress history of a point: Dang Van and Findley.
 //!
 //! ```text
-//! Dang Van   r = max_t [τ(t) + α σ_H(t)]     τ: greatest shear of s(t) − s*,  σ_H = tr σ/3
+//! Dang Van   r = max_t [τ(t) + α σ_H(t)]     τ: maximum shear of s(t) − s*,  σ_H = tr σ/3
 //!            s*: centre of the smallest sphere that holds the path of the deviator s(t)
 //! Findley    r = max over planes [τ_a + k σ_n,max]
-//!            τ_a: half of the range of the shear on the plane; σ_n,max: its greatest normal stress
+//!            τ_a: half of the range of the shear on the plane; σ_n,max: its maximum normal stress
 //! ```
 //! | symbol | meaning |
 //! |---|---|

@@ -5,7 +5,7 @@
 //!                    Y starts the history: count ½ for Y, drop its first point;  else count 1, drop its two.
 //!                    At the end: ½ for every range that is left.
 //! repeating (§5.4.5): a range that is no greater than both neighbours closes: count 1, drop its two points.
-//!                    At the end the ranges left are read as a ring from the greatest value, and all close.
+//!                    At the end the ranges left are read as a ring from the maximum value, and all close.
 //! ```
 //! A history that happens once leaves half cycles; one that is repeated again and again (a material point
 //! that crosses the contact at every turn) closes every cycle.
@@ -27,7 +27,7 @@ use crate::saved::saved;
 /// A counted cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cycle {
-    /// Greatest minus least value.
+    /// Maximum minus minimum value.
     pub range: f64,
     /// Mean of the two.
     pub mean: f64,
@@ -82,7 +82,7 @@ impl Rainflow {
         self.turning.reset();
     }
 
-    /// Least and greatest of the reversals that are not counted yet; (∞, −∞) for none.
+    /// Minimum and maximum of the reversals that are not counted yet; (∞, −∞) for none.
     pub fn open_ends(&self) -> (f64, f64) {
         let none = (f64::INFINITY, f64::NEG_INFINITY);
         let wider = |(low, high): (f64, f64), v: &f64| (low.min(*v), high.max(*v));
@@ -120,7 +120,7 @@ impl Rainflow {
         self.reset();
     }
 
-    /// Closes what is left as a ring, from its greatest value round to the same: every range in between
+    /// Closes what is left as a ring, from its maximum value round to the same: every range in between
     /// finds its partner.
     fn close_ring(&mut self, sink: &mut impl FnMut(Cycle)) {
         self.open_ring();

@@ -217,7 +217,7 @@ pub fn westergaard(x: f64, z: f64, k: f64, poisson: f64) -> Stress6 {
     }
 }
 
-/// Depth and value of the greatest von Mises stress on the axis of a frictionless Hertz contact.
+/// Depth and value of the maximum von Mises stress on the axis of a frictionless Hertz contact.
 ///
 /// Used to print and test; `(z/a, σ_v/p0)`, found by golden section to 1e-10 in depth.
 pub fn hertz_axis_maximum(poisson: f64) -> (f64, f64) {

@@ -97,7 +97,7 @@ impl Turning {
         matches!(self.heading, Trend::Up | Trend::Down).then_some(self.candidate)
     }
 
-    /// Whether `value`, the last one, is the greatest since the last trough.
+    /// Whether `value`, the last one, is the highest since the last trough.
     fn is_summit(&self, value: f64) -> bool {
         self.heading == Trend::Up && self.candidate == value
     }
@@ -116,7 +116,7 @@ pub struct PassedMaximum {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Peaks {
     turning: Turning,
-    /// Greatest value since the last trough.
+    /// Maximum value since the last trough.
     summit: PassedMaximum,
     passed: u32,
     last: Option<PassedMaximum>,

@@ -6,53 +6,68 @@ use super::{
     StressPlan, Symmetry, TimeDependence, TractionDeflection, Valleys, Warning, WavePlan,
 };
 use crate::physics::film_regression;
+use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
 use crate::scene::{
     ContactKind, EyringFlow, Knob, Order, Rheology, Scene, Spread, Surface, SurfaceKind,
 };
 
+/// What the regression formulas say of a film.
+struct Regression {
+    groups: Groups,
+    central_m: f64,
+    others: OtherFilms,
+    radii_ratio: f64,
+    ellipticity: f64,
+}
+
+fn regression(scene: &Scene, hertz: &Hertz) -> Option<Regression> {
+    Some(match scene.kind() {
+        ContactKind::Point => {
+            let point = scene.operating_point()?;
+            Regression {
+                groups: point.groups(),
+                central_m: film_regression::nijenbanning_central_m(&point),
+                others: OtherFilms::HamrockDowson {
+                    central_m: film_regression::hamrock_dowson_central_m(&point),
+                    minimum_m: film_regression::hamrock_dowson_minimum_m(&point),
+                },
+                radii_ratio: point.rx_m / point.ry_m,
+                ellipticity: hertz.b_m / hertz.a_m,
+            }
+        }
+        ContactKind::Line => {
+            let line = scene.line_point()?;
+            Regression {
+                groups: line.groups(),
+                central_m: line.moes_central_m(),
+                others: OtherFilms::DowsonHigginson {
+                    minimum_m: line.dowson_higginson_minimum_m(),
+                },
+                radii_ratio: 0.0,
+                ellipticity: 1.0,
+            }
+        }
+    })
+}
+
 pub(super) fn film_plan(scene: &Scene, hertz: &Hertz) -> Option<FilmPlan> {
-    if let Some(line) = scene.line_point() {
-        let central_m = line.moes_central_m();
-        let film = FilmPlan {
-            groups: line.groups(),
-            central_m,
-            others: OtherFilms::DowsonHigginson {
-                minimum_m: line.dowson_higginson_minimum_m(),
-            },
-            central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
-            lambda_ratio: None,
-            radii_ratio: 0.0,
-            ellipticity: 1.0,
-            valleys: valleys(scene),
-            eyring_flow: eyring_flow(scene),
-            order: scene.numerics.order,
-        };
-        return Some(with_lambda(film, scene));
-    }
-    let point = scene.operating_point()?;
-    let central_m = film_regression::nijenbanning_central_m(&point);
-    let film = FilmPlan {
-        groups: point.groups(),
+    let by_formula = regression(scene, hertz)?;
+    let central_m = by_formula.central_m;
+    let mut film = FilmPlan {
+        groups: by_formula.groups,
         central_m,
-        others: OtherFilms::HamrockDowson {
-            central_m: film_regression::hamrock_dowson_central_m(&point),
-            minimum_m: film_regression::hamrock_dowson_minimum_m(&point),
-        },
+        others: by_formula.others,
         central: central_m * scene.contact.rx_m / (hertz.a_m * hertz.a_m),
         lambda_ratio: None,
-        radii_ratio: point.rx_m / point.ry_m,
-        ellipticity: hertz.b_m / hertz.a_m,
+        radii_ratio: by_formula.radii_ratio,
+        ellipticity: by_formula.ellipticity,
         valleys: valleys(scene),
         eyring_flow: eyring_flow(scene),
         order: scene.numerics.order,
     };
-    Some(with_lambda(film, scene))
-}
-
-fn with_lambda(mut film: FilmPlan, scene: &Scene) -> FilmPlan {
     film.lambda_ratio = film.lambda(scene.composite_rq_m());
-    film
+    Some(film)
 }
 
 fn eyring_flow(scene: &Scene) -> Option<EyringFlow> {
@@ -120,7 +135,7 @@ pub(super) fn domain_warnings(domain: &Domain, film: Option<&FilmPlan>) -> Vec<W
     warnings
 }
 
-/// Heights of both surfaces' crests together, m: the greatest that the scene or its events ask for.
+/// Heights of both surfaces' crests together, m: the most that the scene or its events ask for.
 pub(super) fn crest_m(scene: &Scene) -> f64 {
     let surfaces = scene.surfaces();
     let heights = [0, 1].map(|body: usize| {
@@ -139,8 +154,8 @@ fn scripted(scene: &Scene, knob: Knob) -> impl Iterator<Item = f64> {
     values.copied()
 }
 
-/// Size of the greatest contact that events make, over the scene's own: Hertz.
-pub(super) fn greatest_size(scene: &Scene) -> f64 {
+/// Size of the largest contact that events make, over the scene's own: Hertz.
+pub(super) fn maximum_size(scene: &Scene) -> f64 {
     let own = scene.force_n();
     let most = scripted(scene, Knob::of_load(scene.kind())).fold(own, f64::max);
     scene.kind().size_ratio(most / own)

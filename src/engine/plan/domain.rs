@@ -15,7 +15,7 @@
 //! *Rough surfaces.* Under a light load crests meet far outside of the Hertz contact: wherever the gap of the smooth
 //! contact is less than their heights together. The edges lie beyond that, up to 6 a, and a warning says so
 //! where they do not. Loads and amplitudes that events of the scene set in mid-run are foreseen. What a hand turns is
-//! not: a load whose Hertz contact would reach an edge is refused with the greatest that does not, and a step whose
+//! not: a load whose Hertz contact would reach an edge is refused with the largest that does not, and a step whose
 //! surfaces overlap at an edge is named as not converged.
 
 use super::truncation::{Truncation, gap};

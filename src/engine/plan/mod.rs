@@ -27,7 +27,7 @@ pub use crate::math::grid::Symmetry;
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
 use crate::scene::{
-    ContactKind, EyringFlow, LEAST_HARDNESS, Order, OrderAsked, Record, Scene, StressMeasure,
+    ContactKind, EyringFlow, MINIMUM_HARDNESS, Order, OrderAsked, Record, Scene, StressMeasure,
 };
 
 /// Everything that is decided before the first step.
@@ -135,7 +135,7 @@ pub enum Valleys {
 /// 0.73 a, half a passage (`asperity run` at 3.5e-5 and 2.5e-5 m/s, line 2e-5 and 1e-5 m/s; `tests/engine/dry_switch.rs`
 /// repeats two on a coarser grid):
 ///
-/// | body 1, body 2 | greatest pressure | relative life | valleys |
+/// | body 1, body 2 | maximum pressure | relative life | valleys |
 /// |---|---|---|---|
 /// | ridges along x, smooth | −0.1 % | +0.2 % | open |
 /// | ridges across, product of waves | −2.1 % | +3.7 % | open |
@@ -247,7 +247,7 @@ impl Plan {
             film.map(|film| film.truncation()),
             crests,
         )
-        .holding(decide::greatest_size(scene), &scene.grid);
+        .holding(decide::maximum_size(scene), &scene.grid);
         let dx_m = domain.dx_a() * hertz.a_m;
         let dy_m = row_spacing_m(kind, &domain, &hertz);
         let mut warnings = decide::domain_warnings(&domain, film.as_ref());
@@ -319,17 +319,17 @@ impl Plan {
         self.film.is_some_and(|film| film.flows())
     }
 
-    /// Greatest load whose Hertz pressure is no more than the softer body carries as a whole; infinite: both are elastic.
+    /// Maximum load whose Hertz pressure is no more than the softer body carries as a whole; infinite: both are elastic.
     pub fn carried_force_n(&self) -> f64 {
         self.yielding.map_or(f64::INFINITY, |(hardness_pa, _)| {
-            let ratio = hardness_pa / (LEAST_HARDNESS * self.hertz.p_max_pa);
+            let ratio = hardness_pa / (MINIMUM_HARDNESS * self.hertz.p_max_pa);
             self.force_n * ratio.powi(self.kind.order())
         })
     }
 
-    /// Greatest load, N (a line: N/m), that the bodies carry and whose Hertz contact ends inside of the domain: two nodes
+    /// Maximum load, N (a line: N/m), that the bodies carry and whose Hertz contact ends inside of the domain: two nodes
     /// before its edge, where the pressure must be zero.
-    pub fn most_force_n(&self) -> f64 {
+    pub fn maximum_force_n(&self) -> f64 {
         let domain = &self.domain;
         let along = domain.x_max_a.min(-domain.x_min_a) - 2.0 * domain.dx_a();
         let size = match self.kind {

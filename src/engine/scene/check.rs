@@ -261,7 +261,7 @@ fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
             ..
         } => wavelength_x_m.min(wavelength_y_m),
         Surface::HeightMap { ref map, .. } => {
-            // Its steepest significant wave is lower than its greatest height: the bound is generous.
+            // Its steepest significant wave is lower than its largest height: the bound is generous.
             let [k_x, k_y] = surface.wavenumbers_per_m();
             if map.is_none() {
                 return Err(SceneError::Missing {

@@ -225,7 +225,7 @@ impl Surface {
         }
     }
 
-    /// Wavenumbers of the surface along x and y, 1/m: the greatest that the turned product holds; of a
+    /// Wavenumbers of the surface along x and y, 1/m: the largest that the turned product holds; of a
     /// height map that of its shortest significant waves.
     pub fn wavenumbers_per_m(&self) -> [f64; 2] {
         if let Self::HeightMap {

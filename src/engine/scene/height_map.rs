@@ -19,7 +19,7 @@ use crate::physics::height_map::{HeightMap, MapEdge};
 const LARGEST_FILE: u64 = 64 << 20;
 /// Fewest and most pixels a side: cubic interpolation wants four.
 const SIDE: std::ops::RangeInclusive<usize> = 4..=8192;
-/// Greatest height, m: that of a whole body, not of its roughness.
+/// Maximum height, m: that of a whole body, not of its roughness.
 const GREATEST_M: f64 = 1e-3;
 
 /// A matrix of numbers.

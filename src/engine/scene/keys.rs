@@ -113,7 +113,7 @@ pub const SECTIONS: &[Section] = &[
         doc: "Where surfaces touch.",
         keys: &[
             key("boundary", "", Number(0.0, 1.0), Defaulted, "friction coefficient where surfaces touch"),
-            key("contact_film_m", "m", Number(0.0, 1e-6), Defaulted, "film at or below which a node counts as touching"),
+            key("contact_film_m", "m", Number(0.0, 1e-6), Defaulted, "film at or below which a node counts as asperity contact"),
         ],
     },
     Section {

@@ -34,5 +34,5 @@ pub use model::{
     StressMeasure, Surface, SurfaceKind,
 };
 pub use numerics::{ErrorSource, Numerics, Order, OrderAsked, Time};
-pub use shape::LEAST_HARDNESS;
+pub use shape::MINIMUM_HARDNESS;
 pub use tooth::Tooth;

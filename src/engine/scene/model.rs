@@ -84,7 +84,7 @@ pub struct Body {
     pub young_pa: f64,
     /// Poisson's ratio.
     pub poisson: f64,
-    /// Greatest pressure that its surface carries before it flows for good, Pa; `None` or infinite: it stays elastic.
+    /// Maximum pressure that its surface carries before it flows for good, Pa; `None` or infinite: it stays elastic.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness_pa: Option<f64>,
     /// Surface roughness.
@@ -150,7 +150,7 @@ pub enum Surface {
         /// Height that a value of 1 stands for, m.
         #[serde(default = "one")]
         unit_m: f64,
-        /// Greatest departure from the map's level, m; `None`: as in the file.
+        /// Maximum departure from the map's level, m; `None`: as in the file.
         #[serde(skip_serializing_if = "Option::is_none")]
         amplitude_m: Option<f64>,
         /// Where the middle of a windowed map is at t = 0, m; `None`: just upstream of the domain.

@@ -73,11 +73,11 @@ fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
 }
 
 /// Least hardness over the Hertz pressure: the contact is then at most 4/3 (a line: π/2) of Hertz's, which its domain holds.
-pub const LEAST_HARDNESS: f64 = 0.5;
+pub const MINIMUM_HARDNESS: f64 = 0.5;
 
 /// A body that is too soft for the load would give way as a whole.
 pub(super) fn check_hardness(scene: &Scene) -> Result<(), SceneError> {
-    let least_pa = LEAST_HARDNESS * scene.hertz().p_max_pa;
+    let least_pa = MINIMUM_HARDNESS * scene.hertz().p_max_pa;
     let bodies = [
         ("body_1.hardness_pa", &scene.body_1),
         ("body_2.hardness_pa", &scene.body_2),
@@ -103,12 +103,12 @@ pub(super) fn check_carried(scene: &Scene, key: &str, force: f64) -> Result<(), 
     let p_max_pa = scene.hertz_at(force).p_max_pa;
     let unit = Knob::of_load(scene.contact.kind).unit();
     match scene.hardness_pa() {
-        Some(hardness_pa) if hardness_pa < LEAST_HARDNESS * p_max_pa => Err(SceneError::value(
+        Some(hardness_pa) if hardness_pa < MINIMUM_HARDNESS * p_max_pa => Err(SceneError::value(
             key,
             format!("{} {unit}", short(force)),
             format!(
                 "a Hertz pressure of at most {} Pa, twice the hardness of the softer body; this load makes {} Pa: the body yields as a whole and not by its asperities",
-                short(hardness_pa / LEAST_HARDNESS),
+                short(hardness_pa / MINIMUM_HARDNESS),
                 short(p_max_pa)
             ),
         )),

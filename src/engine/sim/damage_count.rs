@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! ln(1/Ps) = C N^e ∫ < D_X^e >_X dV            D_X = Σ_cycles s^c: damage of a passage of the material point X (Miner)
-//!          ≈ C N^e ∫ n(z)^e < s_X^{c e} >_X dV  s_X: greatest stress that X meets, n = Σ range^c/greatest range^c
+//!          ≈ C N^e ∫ n(z)^e < s_X^{c e} >_X dV  s_X: maximum stress that X meets, n = Σ range^c/maximum range^c
 //! ```
-//! *Which integral belongs to which count.* A count relative to each crossing's own greatest stress needs the mean over
+//! *Which integral belongs to which count.* A count relative to each crossing's own maximum stress needs the mean over
 //! material points of *that* stress: the swept integral times `r(z)` of [`Columns`]. The paper's n counts contacts without
 //! their size, and its integral is that of an instant, the mean of snapshots. Swapped, a ripple of no height would change
 //! the life: the one by n, the other by what single points are spared.
@@ -26,7 +26,7 @@ use crate::solve::stress::StressLaw;
 /// Distance over which crossings must have finished before their mean stands alone, where no wave is longer, a.
 const LEAST_DISTANCE: f64 = 0.25;
 
-/// Half-width within which a point meets its greatest stress, over Hertz's.
+/// Half-width within which a point meets its maximum stress, over Hertz's.
 const REACH: f64 = 0.8;
 /// Bodies slower than this, over the mean speed, are not waited for.
 const SLOW: f64 = 0.5;
@@ -115,7 +115,7 @@ impl DamageCount {
             self.is_known &= tracker.damage_cycles(distances, &mut body.cycles);
             let depths = body.cycles.len().max(1);
             for (law, out) in body.ln_ratios.chunks_exact_mut(depths).enumerate() {
-                body.columns.ln_ratios(law, (body.own, body.needed), out);
+                body.columns.ln_ratios(law, body.own, body.needed, out);
             }
         }
     }

@@ -116,7 +116,7 @@ impl Simulation {
                 ));
             }
         }
-        let most = self.plan.decided.most_force_n();
+        let most = self.plan.decided.maximum_force_n();
         if knob == self.plan.scaling.load_knob() && value > most * (1.0 + 1e-9) {
             if self.plan.decided.carried_force_n() <= most {
                 return Err(refuse(format!(
@@ -170,7 +170,9 @@ impl Simulation {
             Stepping::Adaptive { .. } if !steady => {
                 self.state.distance >= self.plan.decided.length_a * (1.0 - 1e-9)
             }
-            _ => self.state.step >= self.plan.decided.steps,
+            Stepping::Adaptive { .. } | Stepping::Fixed(_) => {
+                self.state.step >= self.plan.decided.steps
+            }
         };
         self.state.phase == Phase::Passage && enough
     }

@@ -1,4 +1,4 @@
-//! One life model as it runs: its mean over the phases, its greatest over the track, its reference.
+//! One life model as it runs: its mean over the phases, its maximum over the track, its reference.
 
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +19,7 @@ use crate::solve::stress::{Loading, StressLaw};
 pub(super) enum LifeIntegral {
     /// Mean of the integral over the phases of a passage.
     Snapshot,
-    /// Mean over material points of the greatest stress that each meets.
+    /// Mean over material points of the maximum stress that each meets.
     Material,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Variant {
     /// Place of its stress law in the volume pass; `None`: it reads slices.
     pub(super) law: Option<usize>,
     meter: LifeMeter,
-    /// Greatest shares over all samples (models of one depth), or the swept integral.
+    /// Maximum shares over all samples (models of one depth), or the swept integral.
     swept: Shares,
     /// The swept integral as the mean over material points, where it is counted; else as it is: the bound.
     material: Shares,

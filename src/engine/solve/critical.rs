@@ -50,7 +50,7 @@ fn stress_at(model: LifeEquation, slice: &SliceOut, nx: usize, k: usize) -> f64 
     }
 }
 
-/// The greatest and its depth, by a parabola through three depths in the coordinate in which they lie evenly.
+/// The maximum and its depth, by a parabola through three depths in the coordinate in which they lie evenly.
 fn refined(depths: &[f64], values: &[f32], k: usize) -> (f64, f64) {
     let here = f64::from(values[k]);
     if k == 0 || k + 1 == values.len() {

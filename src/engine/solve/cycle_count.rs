@@ -27,9 +27,9 @@ pub struct CycleCount {
     pub count: f64,
     /// Σ count · s^m, s the range (or, of effective stress, the peak) in p_h: damage by Miner's rule.
     pub damage: f64,
-    /// Greatest range (peak).
+    /// Maximum range (peak).
     pub range: f64,
-    /// `Σ count · (s/greatest)^m`: as many cycles of the greatest do the same damage.
+    /// `Σ count · (s/maximum)^m`: as many of the largest cycle do the same damage.
     pub equivalent: f64,
 }
 
@@ -45,7 +45,7 @@ impl CycleCount {
         self.equivalent = self.damage / self.range.powf(exponent);
     }
 
-    /// Damage without that of one greatest cycle.
+    /// Damage without that of one largest cycle.
     pub(super) fn small_damage(&self, exponent: f64) -> f64 {
         (self.damage - self.range.powf(exponent)).max(0.0)
     }
@@ -92,7 +92,7 @@ impl CrossingHistory {
         flow.push(value, &mut |cycle| cycles.add(cycle, *basis, exponent));
     }
 
-    /// Least and greatest value so far.
+    /// Minimum and maximum value so far.
     pub(super) fn ends(&self) -> (f64, f64) {
         self.flow.open_ends()
     }

@@ -5,7 +5,7 @@
 //! D(ξ, z) = mean over crossings of Σ_cycles count · (s/p_h)^c      Miner, s: peak of effective stress of the cycle
 //! ```
 //! Every material point of the line y = 0 that ends a whole crossing adds the damage of its own rainflow
-//! spectrum to the column of its place. A pit starts where D is greatest. Given relative to the greatest of
+//! spectrum to the column of its place. A pit starts where D is highest. Given relative to the maximum of
 //! the smooth contact in pure rolling, D says how many times sooner that place fails.
 //!
 //! Source: Miner (1945), J. Appl. Mech. 12, A159-A164. Ours: the sum by place on the body.
@@ -99,7 +99,7 @@ impl DamageMap {
         self.crossings.iter().filter(|c| **c > 0).count()
     }
 
-    /// The place of greatest damage; `None` before the first crossing.
+    /// The place of maximum damage; `None` before the first crossing.
     pub fn pit(&self) -> Option<Pit> {
         let width = self.spec.length / self.spec.columns as f64;
         let mut worst: Option<Pit> = None;

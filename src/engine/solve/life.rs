@@ -2,12 +2,12 @@
 //!
 //! ```text
 //! J_k   = Σ τ_s J_ks / Σ τ_s          share of depth k, over the samples s of the last full period (snapshot)
-//! J_k   = Σ_rows w max_s max_x σ^m    greatest of each row over all samples (swept)
+//! J_k   = Σ_rows w max_s max_x σ^m    maximum of each row over all samples (swept)
 //! cycle · peak · traction = (J/J_n)^{1/e} (J_ref/J_p)^{1/e} (J_p/J)^{1/e} = N/N_ref
 //! J = Σ_k J_k,   J_n = Σ_k n(z_k)^e J_k,   J_p: pressure alone
 //! ```
 //! The integral is averaged, not the life (the *snapshot* form of the literature); the *swept* form takes for
-//! every track the greatest stress that passes over it, which is what a material point sees once S ≠ 0, and is
+//! every track the maximum stress that passes over it, which is what a material point sees once S ≠ 0, and is
 //! the bound. Integrals are kept and added as logarithms. τ is the length of the step in whatever the period
 //! is given in (time, or distance at U); of the oldest sample counts what lies within the period, so that the mean
 //! of what repeats with the period stands still. What never repeats has no such period: an open window goes on from the
@@ -309,7 +309,7 @@ impl LifeMeter {
     }
 }
 
-/// The greatest of every row, or of every depth, over all samples since the last restart.
+/// The maximum of every row, or of every depth, over all samples since the last restart.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SweptRows {
     tops: [Vec<f32>; 4],
@@ -339,7 +339,7 @@ impl SweptRows {
         }
     }
 
-    /// Greatest so far.
+    /// Maximum so far.
     pub fn of(&self, loading: Loading) -> &[f32] {
         &self.tops[loading.index()]
     }

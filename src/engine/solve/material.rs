@@ -12,12 +12,12 @@
 //! crests, so its cycles are the crests that a point meets: `f δ` within the zone, and the crest that the
 //! zone's edge cuts whenever what is left of it passes the gate: 0.6 times in a crossing of a Hertz
 //! contact at a gate of 5 %. The mean count therefore lies between `f δ` and the formula's `n = 1 + f δ`, both over the
-//! zone in which the greatest pressure passes the gate: crests that stand apart make a contact longer than Hertz's. In
+//! zone in which the maximum pressure passes the gate: crests that stand apart make a contact longer than Hertz's. In
 //! every preset it lies between n − 1.1 over Hertz's width and that n + 0.5: the oil adds small cycles of its own (in pure
 //! rolling 1.4 where 1.0 is counted dry). Crests steeper than steel carries press each a contact of a few nodes: there
 //! reading between the nodes wiggles by more than the gate (finer meshes end it) and the oil's own cycles, a few per
 //! cent of the peaks, are many (89 counted where n = 59; dry 70). In damage they are nothing: as many cycles of the
-//! greatest range are fewer than n by Miner's rule in all of them (`tests/life/counts.rs`).
+//! maximum range are fewer than n by Miner's rule in all of them (`tests/life/counts.rs`).
 //! The signed shear of a shallow point counts the same crests (8.3 to 9.4 where n = 9); from one wavelength
 //! down one cycle is left. Accepted is `|mean − f δ| ≤ 1` for the pressure, and from `f δ = 10` on 5 % of
 //! `f δ` or of n (`tests/life/integrals.rs`), with at least 8 points and 16 samples a crest,
@@ -26,16 +26,16 @@
 //! *Two histories a depth.* The signed shear tells cycles by their ranges; the effective stress, which does
 //! not return to zero between crests, tells them by their peaks:
 //! ```text
-//! ranges   n_r(z) = Σ count (range/greatest range)^c         of τ_xz
-//! peaks    n_p(z) = Σ count (peak/greatest peak)^c           of the effective stress
+//! ranges   n_r(z) = Σ count (range/maximum range)^c         of τ_xz
+//! peaks    n_p(z) = Σ count (peak/maximum peak)^c           of the effective stress
 //! ```
-//! Each is the number of cycles at the greatest that do the same damage by Miner's rule. The same sums, not
+//! Each is the number of largest cycles that do the same damage by Miner's rule. The same sums, not
 //! divided, make the map of damage ([`super::damage`]) in coordinates that move with the body.
 //!
 //! Lengths in a, stress in p_h. Memory is made once; steps allocate nothing.
 //!
 //! Sources: ASTM E1049-85 (1985), §5.4.4, for rainflow; Miner (1945) for the sums; Pu, Zhu, Wang and Wang (2016) for n. Ours: the
-//! equivalent counts, from Miner's rule with the greatest range as the unit.
+//! equivalent counts, from Miner's rule with the maximum range as the unit.
 
 mod counts;
 mod spec;
@@ -106,9 +106,9 @@ pub struct MaterialTracker {
     spec: TrackerSpec,
     points: Vec<TrackedPoint>,
     crossings: u64,
-    /// Damage of all ended crossings' shear by depth, each without its greatest cycle.
+    /// Damage of all ended crossings' shear by depth, each without its largest cycle.
     ended: Vec<f64>,
-    /// Damage of the greatest cycles of all whole crossings' shear by depth.
+    /// Damage of the largest cycles of all whole crossings' shear by depth.
     greatest: Vec<f64>,
     /// Samples of the shown point's crossing, oldest first from `oldest` on.
     trace: Vec<Sample>,

@@ -3,15 +3,15 @@
 //! ```text
 //! central film     |h(dx) − h(2dx)|
 //! life             |ln L(dx) − ln L(2dx)|
-//! least film       2 |h(dx) − h(2dx)|
-//! greatest p       2 |p(dx) − p(2dx)| + p_h (dx/a)²/8 + (p − p_h) (2π/n)²/8        n nodes of the shortest wave
+//! minimum film     2 |h(dx) − h(2dx)|
+//! maximum p        2 |p(dx) − p(2dx)| + p_h (dx/a)²/8 + (p − p_h) (2π/n)²/8        n nodes of the shortest wave
 //! ```
 //! The companion runs the same scene, script and passage on half the intervals each way with twice the time
 //! step (or four times the tolerance of adaptive steps), so that every part of the error shrinks together.
 //! For a scheme of order q the error is `|f(dx) − f(2dx)|/(2^q − 1)`. Reported is three times that, Roache's grid
 //! convergence index (1994) for two grids: all of the difference at q = 2. The extremes of a field lie at
-//! spikes, constrictions and touching spots and were seen to converge with q = 1.3: twice the difference. The
-//! greatest pressure at nodes also misses its crest by up to half a spacing, by the same share on both grids
+//! spikes, constrictions and asperity contacts and were seen to converge with q = 1.3: twice the difference. The
+//! maximum pressure at nodes also misses its crest by up to half a spacing, by the same share on both grids
 //! when they are unlucky: a quadratic crest of Hertz and of the ripple. It costs about a seventh of the run.
 //! `tests/engine/discretisation.rs` compares all of it with true errors on ten scenes.
 //!
@@ -68,7 +68,7 @@ pub struct Companion {
     order: Order,
 }
 
-/// What the greatest pressure at nodes may miss of a crest, as shares.
+/// What the maximum pressure at nodes may miss of a crest, as shares.
 #[derive(Debug, Clone, Copy)]
 struct Crest {
     /// Of the Hertz pressure.
@@ -160,11 +160,11 @@ fn set_errors(fine: &mut Summary, coarse: &Summary, crest: Crest, order: Order) 
     let limit = |fine: f64, coarse: f64| limit(fine, coarse, order);
     let apart = |one: f64, two: f64| (one - two).abs();
     fine.error_h_central_m = Some(apart(fine.h_central_m, coarse.h_central_m));
-    // Both grids may meet the same least film by chance; what the inlet lets in too much or too little is in it all the same.
+    // Both grids may meet the same minimum film by chance; what the inlet lets in too much or too little is in it all the same.
     let inlet =
         apart(fine.h_central_m, coarse.h_central_m) / fine.h_central_m.max(f64::MIN_POSITIVE);
-    let least = EXTREMES * apart(fine.h_min_m, coarse.h_min_m);
-    fine.error_h_min_m = Some(least.max(fine.h_min_m * inlet.min(1.0)));
+    let minimum = EXTREMES * apart(fine.h_min_m, coarse.h_min_m);
+    fine.error_h_min_m = Some(minimum.max(fine.h_min_m * inlet.min(1.0)));
     let ripple = (fine.p_max_pa - fine.p_hertz_pa).max(0.0);
     let missed = crest.hertz * fine.p_hertz_pa + crest.ripple * ripple;
     fine.error_p_max_pa = Some(EXTREMES * apart(fine.p_max_pa, coarse.p_max_pa) + missed);

@@ -41,7 +41,7 @@ impl Cooperative {
         let turn = self.driver.turn(&mut self.sim, PausedWait::Never);
         if let LoopTurn::Ended(end) = &turn {
             self.has_ended = true;
-            self.driver.tell_failure(end);
+            self.driver.publish_failure(end);
         }
         turn
     }

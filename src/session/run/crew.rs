@@ -16,21 +16,21 @@ pub fn share_out<C: Sync, R: Send>(
 ) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let mut results: Vec<Option<R>> = cases.iter().map(|_| None).collect();
-    let (tell, news) = channel();
+    let (sender, news) = channel();
     std::thread::scope(|scope| {
         for _ in 0..workers.max(1) {
-            let (tell, next, work) = (tell.clone(), &next, &work);
+            let (sender, next, work) = (sender.clone(), &next, &work);
             scope.spawn(move || {
                 loop {
                     let at = next.fetch_add(1, Ordering::Relaxed);
                     let Some(case) = cases.get(at) else { return };
                     // Nobody listens any more only when the caller is being torn down.
-                    drop(tell.send((at, None)));
-                    drop(tell.send((at, Some(work(case)))));
+                    drop(sender.send((at, None)));
+                    drop(sender.send((at, Some(work(case)))));
                 }
             });
         }
-        drop(tell);
+        drop(sender);
         let mut n_begun = 0;
         for (at, result) in news {
             if result.is_some() {

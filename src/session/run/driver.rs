@@ -50,10 +50,11 @@ pub(super) enum PausedWait {
     Never,
 }
 
-/// Makes one time step: [`Simulation::step`], or in tests one that fails on purpose.
+/// Makes one time step in place of [`Simulation::step`]: in tests one that fails on purpose.
 pub(super) type MakeStep = Box<dyn FnMut(&mut Simulation) -> Result<(), StepError> + Send>;
 
 /// What a run begins with.
+#[derive(Default)]
 pub(super) struct Start {
     pub(super) began: Began,
     /// Scripted events that another run had played before this one goes on.
@@ -64,27 +65,15 @@ pub(super) struct Start {
     pub(super) n_unconverged: u64,
     /// What was done by hand in the run that is repeated, in the order of the steps made by then.
     pub(super) turns: Vec<HandTurn>,
-    pub(super) make_step: MakeStep,
-}
-
-impl Default for Start {
-    fn default() -> Self {
-        Self {
-            began: Began::default(),
-            n_events_played: 0,
-            n_turned_by_hand: 0,
-            n_unconverged: 0,
-            turns: Vec::new(),
-            make_step: Box::new(Simulation::step),
-        }
-    }
+    /// What makes a step, where it is not the simulation itself.
+    pub(super) make_step: Option<MakeStep>,
 }
 
 /// The loop's own state, on the simulation's thread.
 pub(super) struct Driver {
     name: String,
     context: RunContext,
-    make_step: MakeStep,
+    make_step: Option<MakeStep>,
     ending: Ending,
     /// Steps of the whole run; `None`: it has no end.
     steps_planned: Option<u64>,
@@ -173,7 +162,7 @@ impl Driver {
         };
         // A run without an end of its own is ended by whoever says stop.
         let stopped = matches!(end, End::Stopped) && self.ending != Ending::OnStop;
-        self.tell_failure(&end);
+        self.publish_failure(&end);
         let reports = self.outputs.finish();
         let wall_s = started.elapsed_s();
         if let Some(summary) = &mut summary {
@@ -235,7 +224,11 @@ impl Driver {
             return turn;
         }
         self.play_script(sim);
-        if let Err(error) = (self.make_step)(sim) {
+        let made = match &mut self.make_step {
+            Some(make_step) => make_step(sim),
+            None => sim.step(),
+        };
+        if let Err(error) = made {
             return LoopTurn::Ended(End::Stalled(error));
         }
         self.steps_made += 1;
@@ -244,7 +237,7 @@ impl Driver {
         }
         self.judge_step(sim);
         self.hand_out(sim);
-        self.tell_status(sim);
+        self.publish_status(sim);
         if self.must_end_for_outputs() {
             return LoopTurn::Ended(End::OutputFailed);
         }
@@ -454,7 +447,7 @@ impl Driver {
         self.ending != Ending::OnStop && !self.outputs.errors.is_empty()
     }
 
-    fn tell_status(&self, sim: &Simulation) {
+    fn publish_status(&self, sim: &Simulation) {
         let mut shared = self.link.lock();
         let status = &mut shared.status;
         status.stage = sim.stage();
@@ -465,7 +458,7 @@ impl Driver {
         status.outputs.extend(self.outputs.statuses());
     }
 
-    pub(super) fn tell_failure(&self, end: &End) {
+    pub(super) fn publish_failure(&self, end: &End) {
         let failure = match end {
             End::Stalled(error) => error.to_string(),
             End::NotStarted(error) => error.to_string(),

@@ -100,48 +100,17 @@ impl Watcher {
         status
     }
 
-    fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
-        let begun = self.observer.begin(context);
-        self.judge(begun)
-    }
-
+    /// Hands it a frame that is due, unless it is switched off.
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
-        let is_due = frame.step.is_multiple_of(self.every_steps);
-        if !is_due || !self.switch.is_on() || self.has_failed() {
+        if !frame.step.is_multiple_of(self.every_steps) || !self.switch.is_on() {
             return Ok(());
         }
         self.status.frames += 1;
-        let written = self.observer.frame(frame);
-        self.judge(written)
-    }
-
-    fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
-        if self.has_failed() {
-            return Ok(());
-        }
-        let written = self.observer.event(event);
-        self.judge(written)
-    }
-
-    /// Closes the output; one that failed before has said so already.
-    fn finish(&mut self) -> Result<Option<ObserverReport>, ObserveError> {
-        let had_failed = self.has_failed();
-        match self.observer.finish() {
-            Ok(report) => Ok(Some(report)),
-            Err(_) if had_failed => Ok(None),
-            Err(error) => Err(error),
-        }
+        self.observer.frame(frame)
     }
 
     fn has_failed(&self) -> bool {
         self.status.activity == Activity::Failed
-    }
-
-    fn judge(&mut self, result: Result<(), ObserveError>) -> Result<(), ObserveError> {
-        if result.is_err() {
-            self.status.activity = Activity::Failed;
-        }
-        result
     }
 }
 
@@ -161,7 +130,7 @@ impl Outputs {
     }
 
     pub(super) fn begin(&mut self, context: &RunContext) {
-        self.each(|watcher| watcher.begin(context));
+        self.each(|watcher| watcher.observer.begin(context));
     }
 
     pub(super) fn frame(&mut self, frame: &Arc<Frame>) {
@@ -169,12 +138,16 @@ impl Outputs {
     }
 
     pub(super) fn event(&mut self, event: &RunEvent) {
-        self.each(|watcher| watcher.event(event));
+        self.each(|watcher| watcher.observer.event(event));
     }
 
+    /// Calls all that have not failed.
     fn each(&mut self, call: impl Fn(&mut Watcher) -> Result<(), ObserveError>) {
-        for watcher in &mut self.watchers {
-            self.errors.extend(call(watcher).err());
+        for watcher in self.watchers.iter_mut().filter(|w| !w.has_failed()) {
+            if let Err(error) = call(watcher) {
+                watcher.status.activity = Activity::Failed;
+                self.errors.push(error);
+            }
         }
     }
 
@@ -186,8 +159,10 @@ impl Outputs {
     pub(super) fn finish(&mut self) -> Vec<ObserverReport> {
         let mut reports = Vec::new();
         for watcher in &mut self.watchers {
-            match watcher.finish() {
-                Ok(report) => reports.extend(report),
+            match watcher.observer.finish() {
+                Ok(report) => reports.push(report),
+                // It has said so already.
+                Err(_) if watcher.has_failed() => {}
                 Err(error) => self.errors.push(error),
             }
         }

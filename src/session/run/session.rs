@@ -81,7 +81,7 @@ impl Session {
         make_step: impl FnMut(&mut Simulation) -> Result<(), StepError> + Send + 'static,
     ) -> Result<Self, RunError> {
         let start = Start {
-            make_step: Box::new(make_step),
+            make_step: Some(Box::new(make_step)),
             ..Start::default()
         };
         Self::spawn(request, start, make)

@@ -123,16 +123,24 @@ fn read_range(key: &str, table: &toml::Table) -> Result<Vec<Value>, SceneError> 
     let neat = |v: f64| format!("{v:.14e}").parse().unwrap_or(v);
     let mut values: Vec<f64> = (0..n).map(|k| neat(at(k))).collect();
     values[n - 1] = to;
-    if matches!(
-        keys::find(key).map(|k| k.kind),
-        Some(keys::Kind::Integer(..) | keys::Kind::IntegerOf(_))
-    ) {
+    if keys::find(key).is_some_and(|key| takes_whole_numbers(key.kind)) {
         return values
             .into_iter()
             .map(|v| whole(&range.full("n"), v))
             .collect();
     }
     Ok(values.into_iter().map(Value::Float).collect())
+}
+
+fn takes_whole_numbers(kind: keys::Kind) -> bool {
+    match kind {
+        keys::Kind::Integer(..) | keys::Kind::IntegerOf(_) => true,
+        keys::Kind::Text(_)
+        | keys::Kind::Number(..)
+        | keys::Kind::EitherSign(..)
+        | keys::Kind::NumberOrInf(..)
+        | keys::Kind::Choice(_) => false,
+    }
 }
 
 /// A value of a key that takes whole numbers only.

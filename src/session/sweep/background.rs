@@ -115,10 +115,9 @@ pub struct Found {
 /// A sweep beside a run.
 #[derive(Debug)]
 pub struct Background {
-    stop: Arc<AtomicBool>,
+    /// Each worker holds it too.
+    work: Arc<SharedWork>,
     found: Receiver<Found>,
-    /// Values done, with and without a result. Each worker holds it too.
-    done: Arc<AtomicUsize>,
     all: usize,
 }
 
@@ -150,34 +149,26 @@ impl Background {
         let near = along.of(&scene);
         values.sort_by(|one, two| (one - near).abs().total_cmp(&(two - near).abs()));
         let all = values.len();
-        let stop = Arc::new(AtomicBool::new(false));
-        let done = Arc::new(AtomicUsize::new(0));
         let (sender, found) = channel();
         let (up, down) = values.into_iter().partition(|value| *value >= near);
-        let shared = Arc::new(SharedWork {
+        let work = Arc::new(SharedWork {
             along,
             scene,
             ground,
             sides: Mutex::new([up, down]),
+            stop: AtomicBool::new(false),
+            done: AtomicUsize::new(0),
         });
         let worker = |place: usize| SweepWorker {
-            work: Arc::clone(&shared),
+            work: Arc::clone(&work),
             side: place % 2,
-            stop: Arc::clone(&stop),
-            done: Arc::clone(&done),
             found: sender.clone(),
             last_side: None,
             before: None,
             under_way: None,
         };
         let workers = (0..workers).map(worker).collect();
-        let this = Self {
-            stop,
-            found,
-            done,
-            all,
-        };
-        (this, workers)
+        (Self { work, found, all }, workers)
     }
 
     /// What is new since the last call.
@@ -187,13 +178,13 @@ impl Background {
 
     /// Values done and values in all; `None` once no worker is left.
     pub fn progress(&self) -> Option<(usize, usize)> {
-        let works = Arc::strong_count(&self.done) > 1;
-        works.then(|| (self.done.load(Ordering::Relaxed), self.all))
+        let works = Arc::strong_count(&self.work) > 1;
+        works.then(|| (self.work.done.load(Ordering::Relaxed), self.all))
     }
 
     /// Ends it after the present steps.
     pub fn call_off(&self) {
-        self.stop.store(true, Ordering::Relaxed);
+        self.work.stop.store(true, Ordering::Relaxed);
     }
 }
 
@@ -213,11 +204,15 @@ fn take_next(sides: &mut Sides, side: usize) -> Option<(usize, f64)> {
 }
 
 /// What the workers share.
+#[derive(Debug)]
 struct SharedWork {
     along: Along,
     scene: Scene,
     ground: Ground,
     sides: Mutex<Sides>,
+    stop: AtomicBool,
+    /// Values done, with and without a result.
+    done: AtomicUsize,
 }
 
 /// Works through the values of a sweep, one step of a case after another.
@@ -226,8 +221,6 @@ pub struct SweepWorker {
     /// Where it is at home, and of which side its last value was.
     side: usize,
     last_side: Option<usize>,
-    stop: Arc<AtomicBool>,
-    done: Arc<AtomicUsize>,
     found: Sender<Found>,
     /// The run itself, or the case before.
     before: Option<Neighbour>,
@@ -245,7 +238,7 @@ struct ValueCase {
 impl SweepWorker {
     /// One step, or the beginning of the next case; false once nothing is left to do, or nobody waits for it.
     pub fn turn(&mut self) -> bool {
-        if self.stop.load(Ordering::Relaxed) {
+        if self.work.stop.load(Ordering::Relaxed) {
             return false;
         }
         match self.under_way.take() {
@@ -273,7 +266,7 @@ impl SweepWorker {
         match Case::new(0, scene, CHAIN) {
             Ok(case) => self.begin(case, false),
             // What is no scene has no life; the next value may be one.
-            Err(_) => drop(self.done.fetch_add(1, Ordering::Relaxed)),
+            Err(_) => drop(self.work.done.fetch_add(1, Ordering::Relaxed)),
         }
         true
     }
@@ -303,7 +296,7 @@ impl SweepWorker {
         let own = || self.work.ground.start();
         let next = state.map(|state| Neighbour { scene, state });
         self.before = next.or_else(own);
-        self.done.fetch_add(1, Ordering::Relaxed);
+        self.work.done.fetch_add(1, Ordering::Relaxed);
         true
     }
 

@@ -156,8 +156,7 @@ fn fit_window(plan: &mut Plan) {
         return;
     }
     let run_in = (plan.length_a - plan.passage_a).max(0.0);
-    let asked = plan.length_a - run_in;
-    let averaged = window(plan, asked);
+    let averaged = window(plan, plan.length_a - run_in);
     (plan.passage_a, plan.length_a) = (averaged, run_in + averaged);
     let step_a = 4.0 / plan.steps_per_passage as f64;
     plan.steps = (plan.length_a / step_a).ceil() as u64;
@@ -196,8 +195,11 @@ pub(super) fn may_follow(before: &Scene, scene: &Scene) -> bool {
         scene.body_2.surface.set_amplitude_m(0.0);
         scene
     };
-    let drawn = |surface: &&Surface| matches!(surface, Surface::HeightMap { .. });
-    stripped(before) == stripped(scene) && !scene.surfaces().iter().any(drawn)
+    let is_map = |surface: &&Surface| match surface {
+        Surface::HeightMap { .. } => true,
+        Surface::Smooth {} | Surface::Sinusoid { .. } => false,
+    };
+    stripped(before) == stripped(scene) && !scene.surfaces().iter().any(is_map)
 }
 
 /// A case under way, for who makes its steps.

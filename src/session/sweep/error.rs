@@ -62,9 +62,6 @@ pub enum SweepError {
         /// The chains that lack them.
         list: String,
     },
-    /// The machine gave no thread.
-    #[error("no worker thread: {0}")]
-    Threads(String),
 }
 
 impl SweepError {

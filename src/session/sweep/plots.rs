@@ -2,7 +2,7 @@
 //!
 //! | picture | drawn when |
 //! |---|---|
-//! | life, friction, least film, greatest pressure against the last axis (a path: the way) | it is made of numbers |
+//! | life, friction, minimum film, maximum pressure against the last axis (a path: the way) | it is made of numbers |
 //! | film against speed with the regression line | the entrainment speed varies |
 //! | Stribeck: friction against λ; lives by both counts against λ | speed, viscosity, load or roughness varies |
 //! | life map | two axes of numbers make a grid |
@@ -127,8 +127,8 @@ struct Plot {
 const PLOTS: [Plot; 7] = [
     Plot { name: "life", label: "relative life", scale: Scale::Log, curves: &[computed("", "life_relative")] },
     Plot { name: "traction", label: "friction coefficient", scale: Scale::Linear, curves: &[computed("", "friction_coefficient")] },
-    Plot { name: "pressure", label: "pressure, Pa", scale: Scale::Linear, curves: &[computed("greatest", "p_max_greatest_pa"), computed("mean of the steps' greatest", "p_max_pa"), formula("Hertz", "p_hertz_pa")] },
-    Plot { name: "film", label: "film, m", scale: Scale::Log, curves: &[computed("centre", "h_central_m"), computed("mean of the steps' least", "h_min_m"), formula("smooth, by regression", "h_regression_m")] },
+    Plot { name: "pressure", label: "pressure, Pa", scale: Scale::Linear, curves: &[computed("maximum", "p_max_greatest_pa"), computed("mean of the steps' maxima", "p_max_pa"), formula("Hertz", "p_hertz_pa")] },
+    Plot { name: "film", label: "film, m", scale: Scale::Log, curves: &[computed("centre", "h_central_m"), computed("mean of the steps' minima", "h_min_m"), formula("smooth, by regression", "h_regression_m")] },
     Plot { name: "mechanisms", label: "factor of life", scale: Scale::Log, curves: &[computed("cycles", "cycle_factor"), computed("peaks", "peak_factor"), computed("traction", "traction_factor")] },
     Plot { name: "contacts", label: "contacts a loading cycle n", scale: Scale::Log, curves: &[computed("body 1", "n_body_1"), computed("body 2", "n_body_2")] },
     Plot { name: "lambda", label: "lambda", scale: Scale::Linear, curves: &[computed("", "lambda_ratio")] },

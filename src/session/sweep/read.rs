@@ -115,7 +115,7 @@ fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError
         inputs: Vec::new(),
     };
     for (key, value) in &sweep.set {
-        setting((key, value))?;
+        setting(key, value)?;
     }
     match (vary, paths.as_slice()) {
         (Some(vary), []) => {

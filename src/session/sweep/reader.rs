@@ -42,12 +42,12 @@ impl<'a> TableReader<'a> {
     ) -> Option<T> {
         self.known.push(name);
         let value = self.table.get(name)?;
-        let taken = of(value);
-        if taken.is_none() {
+        let read = of(value);
+        if read.is_none() {
             let error = SceneError::value(self.full(name), shown(value), allowed);
             self.refused.get_or_insert(error);
         }
-        taken
+        read
     }
 
     /// Same of a key that must be given; `T`'s default in its place, where [`TableReader::finish`] will refuse the table.

@@ -67,16 +67,16 @@ pub fn run(
     progress: &Progress,
 ) -> Result<Report, SweepError> {
     let mut own = own_chains(sweep, shard);
-    for case in own.iter().flat_map(|(_, cases)| cases.clone()) {
+    for case in own.iter().flat_map(|chain| chain.cases.clone()) {
         sweep.case(case)?;
     }
     let is_there = |case: &usize| folder.read_case(*case).is_some();
-    let all = own.iter().map(|(_, cases)| cases.len()).sum();
+    let all = own.iter().map(|chain| chain.cases.len()).sum();
     let mut found = 0;
-    own.retain(|(_, cases)| {
-        let there = cases.clone().filter(is_there).count();
+    own.retain(|chain| {
+        let there = chain.cases.clone().filter(is_there).count();
         found += there;
-        there < cases.len()
+        there < chain.cases.len()
     });
     progress.all.store(all, Ordering::Relaxed);
     progress.found.store(found, Ordering::Relaxed);
@@ -88,8 +88,8 @@ pub fn run(
         progress,
         threads: (threads / workers).max(1),
     };
-    let work = |(chain, cases): &(usize, Range<usize>)| {
-        let ran = crew.run(*chain, cases);
+    let work = |chain: &Chain| {
+        let ran = crew.run(chain);
         // What fails for one fails for all: a full disk.
         progress.stop.fetch_or(ran.is_err(), Ordering::Relaxed);
         ran
@@ -101,10 +101,19 @@ pub fn run(
     })
 }
 
-/// The chains of a shard with their cases.
-fn own_chains(sweep: &Sweep, shard: Shard) -> Vec<(usize, Range<usize>)> {
+/// A chain with its cases.
+struct Chain {
+    index: usize,
+    cases: Range<usize>,
+}
+
+/// The chains of a shard.
+fn own_chains(sweep: &Sweep, shard: Shard) -> Vec<Chain> {
     let chains = sweep.chains().into_iter().enumerate();
-    chains.filter(|(chain, _)| shard.has(*chain)).collect()
+    chains
+        .filter(|(index, _)| shard.has(*index))
+        .map(|(index, cases)| Chain { index, cases })
+        .collect()
 }
 
 /// How many cases a shard has, and what they cost together, each from a cold start: an estimate, told before the first one
@@ -120,7 +129,7 @@ pub fn cost(sweep: &Sweep, shard: Shard) -> Result<(usize, Cost), SweepError> {
     };
     for index in own_chains(sweep, shard)
         .into_iter()
-        .flat_map(|(_, cases)| cases)
+        .flat_map(|chain| chain.cases)
     {
         let cost = sweep.case(index)?.plan.cost;
         cases += 1;
@@ -141,12 +150,13 @@ struct Crew<'a> {
 
 impl Crew<'_> {
     /// Runs what is missing of a chain; how many cases that were.
-    fn run(&self, chain: usize, cases: &Range<usize>) -> Result<usize, SweepError> {
+    fn run(&self, chain: &Chain) -> Result<usize, SweepError> {
         if self.progress.stop.load(Ordering::Relaxed) {
             return Ok(0);
         }
         let mut computed = 0;
-        let (from, mut neighbour) = self.take_up(chain, cases)?;
+        let (from, mut neighbour) = self.take_up(chain)?;
+        let cases = &chain.cases;
         for index in from..cases.end {
             let case = self.sweep.case(index)?;
             let was_there = self.folder.read_case(index).is_some();
@@ -170,10 +180,10 @@ impl Crew<'_> {
             if index + 1 < cases.end
                 && let Some(neighbour) = &neighbour
             {
-                self.folder.write_state(chain, index, neighbour)?;
+                self.folder.write_state(chain.index, index, neighbour)?;
             }
             if index > cases.start {
-                self.folder.drop_state(chain, index - 1);
+                self.folder.drop_state(chain.index, index - 1);
             }
         }
         Ok(computed)
@@ -181,11 +191,8 @@ impl Crew<'_> {
 
     /// Where a chain goes on: after its last case whose successor can begin as it would have begun in an
     /// undisturbed run.
-    fn take_up(
-        &self,
-        chain: usize,
-        cases: &Range<usize>,
-    ) -> Result<(usize, Option<Neighbour>), SweepError> {
+    fn take_up(&self, chain: &Chain) -> Result<(usize, Option<Neighbour>), SweepError> {
+        let cases = &chain.cases;
         let missing = cases.clone().find(|c| self.folder.read_case(*c).is_none());
         let missing = missing.unwrap_or(cases.end);
         for next in (cases.start + 1..=missing.min(cases.end - 1)).rev() {
@@ -195,7 +202,7 @@ impl Crew<'_> {
             if was_in_trouble || !may_follow(&scene, &self.sweep.case(next)?.scene) {
                 return Ok((next, None));
             }
-            if let Some(state) = self.folder.read_state(chain, next - 1, &scene) {
+            if let Some(state) = self.folder.read_state(chain.index, next - 1, &scene) {
                 return Ok((next, Some(Neighbour { scene, state })));
             }
         }

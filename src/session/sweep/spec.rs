@@ -163,7 +163,10 @@ impl Sweep {
         varied: impl Iterator<Item = (&'a String, &'a Value)>,
     ) -> Result<Scene, SceneError> {
         let set = self.set.iter().map(|(key, value)| (key, value));
-        let overrides: Result<Vec<_>, _> = set.chain(varied).map(setting).collect();
+        let overrides: Result<Vec<_>, _> = set
+            .chain(varied)
+            .map(|(key, value)| setting(key, value))
+            .collect();
         Scene::from_toml_with(&self.base, "scene", &overrides?)
     }
 
@@ -209,7 +212,7 @@ impl Sweep {
 }
 
 /// An override from a key and a TOML value.
-pub(super) fn setting((key, value): (&String, &Value)) -> Result<Override, SceneError> {
+pub(super) fn setting(key: &str, value: &Value) -> Result<Override, SceneError> {
     match value.as_str() {
         // The word that takes a key or a table out.
         Some("none") => format!("{key}=none").parse(),

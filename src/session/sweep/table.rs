@@ -15,52 +15,38 @@ use super::folder::Folder;
 use super::spec::Sweep;
 use crate::cells::{Cells, csv_line};
 use asperity_engine::files::fnv;
-use asperity_engine::sim::{CATALOGUE, Stats};
+use asperity_engine::sim::{CATALOGUE, Summary};
 
 /// Where a column's number stands in a record.
 type InRecord = fn(&CaseRecord) -> Option<f64>;
 
-/// A number of a summary as a cell of the table.
-trait Cell {
-    /// `has_steps`: without a step there are no means.
-    fn cell(self, has_steps: bool) -> Option<f64>;
+/// Without a step there are no means.
+fn mean(record: &CaseRecord, number: fn(&Summary) -> f64) -> Option<f64> {
+    (record.summary.steps > 0).then(|| number(&record.summary))
 }
 
-impl Cell for f64 {
-    fn cell(self, has_steps: bool) -> Option<f64> {
-        has_steps.then_some(self)
-    }
+/// Columns of means, each of the name of its number in the summary.
+macro_rules! means {
+    ($($name:ident)*) => { &[$((stringify!($name), |r| mean(r, |s| s.$name))),*] };
 }
 
-impl Cell for u64 {
-    fn cell(self, has_steps: bool) -> Option<f64> {
-        has_steps.then_some(self as f64)
-    }
-}
-
-impl<T: Into<f64>> Cell for Option<T> {
-    fn cell(self, _has_steps: bool) -> Option<f64> {
-        self.map(Into::into)
-    }
-}
-
-/// Columns named as the numbers of the summary that they show.
-macro_rules! summary {
-    ($($name:ident)*) => {
-        &[$((stringify!($name), |r| r.summary.$name.cell(r.summary.steps > 0))),*]
-    };
+/// Same of numbers that not every scene has.
+macro_rules! optional {
+    ($($name:ident)*) => { &[$((stringify!($name), |r| r.summary.$name.map(f64::from))),*] };
 }
 
 /// Columns after those of the path and the axes; what the catalogue shows by itself follows them.
-const COLUMNS: [&[(&str, InRecord)]; 5] = [
+const COLUMNS: [&[(&str, InRecord)]; 7] = [
     &[
         ("h_regression_m", |r| r.h_regression_m),
         ("h_min_regression_m", |r| r.h_min_regression_m),
         ("lambda_ratio", |r| r.lambda_ratio),
     ],
-    summary! {
+    means! {
         a_m p_hertz_pa load_n h_central_m h_min_m h_min_least_m p_max_pa p_max_greatest_pa
         contact_ratio contact_load_ratio friction_coefficient
+    },
+    optional! {
         n_body_1 n_body_2 n_counted_body_1 n_counted_body_2
         i_ref i_mean cycle_factor stress_factor peak_factor traction_factor load_factor
         life_relative life_relative_low life_relative_high life_body life_body_1 life_body_2
@@ -73,34 +59,37 @@ const COLUMNS: [&[(&str, InRecord)]; 5] = [
         ("pit_depth_1_m", |r| Some(r.summary.pit_body_1?.depth_m)),
         ("pit_depth_2_m", |r| Some(r.summary.pit_body_2?.depth_m)),
     ],
-    summary! { period_s period_drift load_error mass_error steps steps_not_converged },
+    optional! { period_s period_drift },
+    means! { load_error mass_error },
     &[
-        ("newton_iterations", |r| counted(r, |c| c.newton_iterations)),
-        ("linear_iterations", |r| counted(r, |c| c.linear_iterations)),
-        ("ffts", |r| counted(r, |c| c.ffts)),
+        ("steps", |r| mean(r, |s| s.steps as f64)),
+        ("steps_not_converged", |r| {
+            mean(r, |s| s.steps_not_converged as f64)
+        }),
+        ("newton_iterations", |r| {
+            mean(r, |s| s.counters.newton_iterations as f64)
+        }),
+        ("linear_iterations", |r| {
+            mean(r, |s| s.counters.linear_iterations as f64)
+        }),
+        ("ffts", |r| mean(r, |s| s.counters.ffts as f64)),
     ],
 ];
 
-fn counted(record: &CaseRecord, counter: fn(&Stats) -> u64) -> Option<f64> {
-    let summary = &record.summary;
-    counter(&summary.counters).cell(summary.steps > 0)
+fn own_columns() -> impl Iterator<Item = &'static (&'static str, InRecord)> {
+    COLUMNS.into_iter().flatten()
 }
 
 /// Names of all those columns.
 fn columns() -> impl Iterator<Item = &'static str> {
     let more = CATALOGUE.iter().filter(|quantity| quantity.by_itself);
     let more = more.flat_map(|quantity| quantity.over).map(|(_, key)| *key);
-    let own = COLUMNS.into_iter().flatten().map(|(name, _)| *name);
-    own.chain(more)
+    own_columns().map(|(name, _)| *name).chain(more)
 }
 
 /// A record's number in the column of that name.
 fn number(record: &CaseRecord, name: &str) -> Option<f64> {
-    match COLUMNS
-        .into_iter()
-        .flatten()
-        .find(|(column, _)| *column == name)
-    {
+    match own_columns().find(|(column, _)| *column == name) {
         Some((_, of)) => of(record),
         None => *record.summary.by_itself.get(name)?,
     }

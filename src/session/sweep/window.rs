@@ -21,8 +21,8 @@ const CLOSED: f64 = 4e-3;
 /// Leak over the least one that is about as little.
 const ABOUT: f64 = 1.1;
 
-/// The way to average over, in a: near `asked`, where the ripples of both bodies cancel best.
-pub(super) fn window(plan: &Plan, asked: f64) -> f64 {
+/// The way to average over, in a: near `wanted`, where the ripples of both bodies cancel best.
+pub(super) fn window(plan: &Plan, wanted: f64) -> f64 {
     let s = plan.slide_roll;
     let speeds = [1.0 - 0.5 * s, 1.0 + 0.5 * s];
     let of = |body: usize| {
@@ -31,17 +31,17 @@ pub(super) fn window(plan: &Plan, asked: f64) -> f64 {
         })
     };
     let (one, two) = (of(0), of(1));
-    best([one, two, (one - two).abs()], asked, plan.domain.dx_a())
+    best([one, two, (one - two).abs()], wanted, plan.domain.dx_a())
 }
 
 /// The best of the windows that are whole steps.
-fn best(frequencies: [f64; 3], asked: f64, step: f64) -> f64 {
+fn best(frequencies: [f64; 3], wanted: f64, step: f64) -> f64 {
     let moving = || frequencies.into_iter().filter(|f| *f > 1e-9);
     let slowest = moving().fold(f64::INFINITY, f64::min);
     let Some(crest) = Some(1.0 / slowest).filter(|crest| *crest > 0.0) else {
-        return asked;
+        return wanted;
     };
-    let longest = crest.clamp(LONGEST * asked, SLOW * asked);
+    let longest = crest.clamp(LONGEST * wanted, SLOW * wanted);
     let leak = |w: f64| -> f64 {
         moving()
             .map(|f| {
@@ -50,13 +50,13 @@ fn best(frequencies: [f64; 3], asked: f64, step: f64) -> f64 {
             })
             .sum()
     };
-    let first = (SHORTEST * asked / step).ceil() as u64;
+    let first = (SHORTEST * wanted / step).ceil() as u64;
     let last = (longest / step).ceil() as u64;
     let windows = || (first..=last.max(first)).map(|n| n as f64 * step);
     let least = windows().map(leak).fold(f64::INFINITY, f64::min);
     windows()
         .find(|w| leak(*w) <= (ABOUT * least).max(CLOSED))
-        .unwrap_or(asked)
+        .unwrap_or(wanted)
 }
 
 #[cfg(test)]
@@ -89,8 +89,8 @@ mod tests {
                 let at = |k: i32| ripple(from + w * (f64::from(k) + 0.5) / f64::from(n));
                 (0..n).map(at).sum::<f64>().abs() / f64::from(n)
             });
-            println!("{f_1} {f_2}: window {w}, left {worst:?}");
-            assert!(worst.iter().all(|left| *left < 0.06), "{w} {worst:?}");
+            println!("{f_1} {f_2}: window {w}, remains {worst:?}");
+            assert!(worst.iter().all(|mean| *mean < 0.06), "{w} {worst:?}");
             assert!((2.0..=9.04).contains(&w));
         }
     }

@@ -79,7 +79,7 @@ impl LifeStage {
         life.is_finite().then_some(life)
     }
 
-    /// Least and greatest life over the variants and cycle bases, and how many.
+    /// Minimum and maximum life over the variants and cycle bases, and how many.
     pub(super) fn spread(
         &self,
         now: &Now,

@@ -112,7 +112,7 @@ fn can_stand_at(plan: &SimPlan, work: &Work, knob: Knob, value: f64) -> bool {
     match knob {
         Knob::SlideRoll => knob.takes(value),
         Knob::ForceN | Knob::ForceNPerM => {
-            let most = plan.decided.most_force_n() * (1.0 + 1e-9);
+            let most = plan.decided.maximum_force_n() * (1.0 + 1e-9);
             value > 0.0 && (knob != plan.scaling.load_knob() || value <= most)
         }
         Knob::Amplitude1M => value >= 0.0 && (value == 0.0 || work.roughness.is_rough(0)),

@@ -39,10 +39,10 @@ impl MaterialTracker {
     /// this one moved by `own` (both in size, since the last restart):
     ///
     /// ```text
-    /// n(z) = U_i/U_fast + (Z/N d) Σ_small range^c / <greatest range^c>        Z: track, N: points, d: distance
+    /// n(z) = U_i/U_fast + (Z/N d) Σ_small range^c / <maximum range^c>        Z: track, N: points, d: distance
     /// ```
     /// Cycles count as they close, wherever the points then are, and so also for a body that hardly moves or stands;
-    /// the greatest of each crossing is the crossing's own. A depth without shear (a frictionless surface) takes the
+    /// the largest of each crossing is the crossing's own. A depth without shear (a frictionless surface) takes the
     /// count below it. False before anything moved.
     pub fn damage_cycles(&self, (own, fastest): (f64, f64), out: &mut [f64]) -> bool {
         if fastest <= 0.0 || self.spec.depths == 0 {
@@ -63,7 +63,7 @@ impl MaterialTracker {
         true
     }
 
-    /// Mean damage of the greatest cycle of a crossing at depth `k`: of all whole crossings, not of each point's last, which are
+    /// Mean damage of the largest cycle of a crossing at depth `k`: of all whole crossings, not of each point's last, which are
     /// milder where surfaces run in. As long as not every point has finished one, what all points together saw stands for the
     /// rest: those in the valleys of their own surface alone would be milder than the crests by orders of magnitude to the power of c.
     fn greatest_damage(&self, k: usize) -> f64 {

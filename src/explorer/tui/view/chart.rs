@@ -107,7 +107,7 @@ impl Plot {
 /// The part of a frame's x/a that is drawn: around the contact, or all of it.
 pub(super) fn zoomed(app: &App, frame: &Frame, [from, to]: [f64; 2]) -> [f64; 2] {
     let domain = SurfaceProfile::domain(frame);
-    match app.zoom {
+    match app.view.zoom {
         Zoom::Contact => [domain[0].max(from), domain[1].min(to)],
         Zoom::Domain => domain,
     }
@@ -254,11 +254,11 @@ impl CurvePanel {
     /// Draws the curves, or leaves them to the page; cells that no curve passes through stay as they are.
     pub(super) fn render(&self, app: &App, buffer: &mut Buffer) -> Option<PixelPlot> {
         let area = self.plot.area;
-        if app.is_in_lines() {
+        if app.is_in_pixels() {
             let curves = self.curves.iter().map(Curve::in_pixels).collect();
             return Some(PixelPlot { area, curves });
         }
-        self.draw(app.theme.is_ascii(), buffer);
+        self.draw(app.view.theme.is_ascii(), buffer);
         None
     }
 
