@@ -3,7 +3,7 @@
 //! ```text
 //! a.rrd, b.rrd ──> frames ──> common ranges ──> a/..., b/..., difference/..., one layout
 //! key      simulated time t, or the place of a crest of body 1: ∫ U1 dt
-//! moments  those of the first run's pictures up to the least last key for which each other run has a picture within a
+//! moments  those of the first run's pictures up to the smallest last key for which each other run has a picture within a
 //!          step of its own; of it the nearest by key
 //! ```
 //! Frames go the way of any recording's, so that what is seen beside each other differs by the runs alone. Fields come in
@@ -55,7 +55,7 @@ pub struct RunsCompared {
     pub pictures: u64,
     /// How far a run's picture is from its moment at most, in its own steps.
     pub apart_steps: f64,
-    /// Greatest pressure of a run less the first one's, Pa.
+    /// Maximum pressure of a run less the first one's, Pa.
     pub difference_pa: f64,
 }
 
@@ -108,7 +108,7 @@ pub fn compare(
         scope,
         exaggeration: None,
         shown: Vec::new(),
-        told: RunsCompared {
+        report: RunsCompared {
             pictures: moments.len() as u64,
             apart_steps: 0.0,
             difference_pa: 0.0,
@@ -118,14 +118,14 @@ pub fn compare(
         written.write(name, run)?;
     }
     let names: Vec<&str> = runs.iter().map(|run| run.name.as_str()).collect();
-    written.tell(&names, by);
+    written.log_comparison(&names, by);
     layout::send(&stream, &written.shown, &names)?;
-    let told = written.told;
+    let report = written.report;
     if let Some(file) = stream.to().file() {
         file.mark_worth_keeping();
     }
     stream.close()?;
-    Ok(told)
+    Ok(report)
 }
 
 /// Farthest that a picture may be from its moment, in its own steps; less what rounding makes of a whole step.
@@ -169,7 +169,7 @@ struct Written<'a> {
     scope: Scope,
     exaggeration: Option<f64>,
     shown: Vec<layout::ShownRun>,
-    told: RunsCompared,
+    report: RunsCompared,
 }
 
 impl Written<'_> {
@@ -192,7 +192,7 @@ impl Written<'_> {
         self.exaggeration = self.exaggeration.or(views.exaggeration);
         let toml = TextDocument::new(run.run.frames.scene_toml.as_str());
         stream.log_static(entities::text::SCENE_TOML, &toml);
-        self.write_series(&views, run);
+        self.write_series(&mut views, run);
         let mut difference = None;
         let mut followed = 0;
         for &moment in self.moments {
@@ -231,13 +231,13 @@ impl Written<'_> {
     fn picture(&mut self, run: &KeyedRun, moment: usize) -> Result<Frame, ObserveError> {
         let key = self.first.keys[moment];
         let at = run.nearest(key);
-        self.told.apart_steps = self.told.apart_steps.max(run.apart(at, key));
+        self.report.apart_steps = self.report.apart_steps.max(run.apart(at, key));
         let frame = run.run.frames.frame(run.steps[at].step);
         frame.ok_or_else(|| ObserveError::new(&*run.run.name, "one of its pictures is damaged"))
     }
 
     /// Curves of every step, at the first run's moments.
-    fn write_series(&self, views: &RunViews, run: &KeyedRun) {
+    fn write_series(&self, views: &mut RunViews, run: &KeyedRun) {
         for (frame, key) in run.steps.iter().zip(&run.keys) {
             if *key > self.end {
                 break;
@@ -245,8 +245,9 @@ impl Written<'_> {
             let (step, time_s, passages) = self.first.moment(*key);
             let step = step.round() as u64;
             self.stream.set_time(Moment::new(step, time_s, passages));
-            views.series.log(self.stream, frame);
+            views.series.follow(self.stream, frame);
         }
+        views.series.send(self.stream);
     }
 
     /// Curves in views that runs share have the run's colour and name; the band is thin.
@@ -279,10 +280,10 @@ impl Written<'_> {
     ) -> Result<(), ObserveError> {
         let first = self.picture(self.first, moment)?;
         let values = less(frame, &first);
-        let greatest = values
+        let maximum = values
             .iter()
             .fold(0.0_f32, |top, value| top.max(value.abs()));
-        self.told.difference_pa = self.told.difference_pa.max(greatest.into());
+        self.report.difference_pa = self.report.difference_pa.max(maximum.into());
         if raster.is_none() {
             let geometry = Geometry::of(&first, 1.0);
             let (pixels, plot) = (maps::pixels(geometry), maps::plot_box(geometry));
@@ -299,7 +300,7 @@ impl Written<'_> {
     }
 
     /// Says what stands beside what, and how near.
-    fn tell(&self, names: &[&str], by: ComparedBy) {
+    fn log_comparison(&self, names: &[&str], by: ComparedBy) {
         let by = match by {
             ComparedBy::Time => "simulated time",
             ComparedBy::Place => {
@@ -316,9 +317,9 @@ impl Written<'_> {
              it, each by its nearest picture, at most {apart} of its own steps away. Colours, ranges and heights are \
              common to all. The difference is pressure less that of {first}, at most {difference} GPa.\n\n{caution}.\n",
             first = names.first().unwrap_or(&"a"),
-            moments = counted(self.told.pictures, "moment"),
-            apart = sig(self.told.apart_steps, 2),
-            difference = sig(GPA.of(self.told.difference_pa), 3),
+            moments = counted(self.report.pictures, "moment"),
+            apart = sig(self.report.apart_steps, 2),
+            difference = sig(GPA.of(self.report.difference_pa), 3),
             caution = text::CAUTION,
         );
         let told = TextDocument::from_markdown(told);

@@ -59,7 +59,7 @@ impl Every {
 pub(crate) struct Cadence {
     fields: Every,
     scalars: Every,
-    asked: u64,
+    every_asked: u64,
     budget: f64,
     /// Bytes that come at the end whatever was recorded.
     last: f64,
@@ -67,9 +67,9 @@ pub(crate) struct Cadence {
     expected: f64,
     /// Steps whose fields were recorded, and their bytes.
     recorded: u64,
-    taken: f64,
+    fields_bytes: f64,
     /// Bytes of all that was recorded so far, and what they may come to in this octave.
-    weight: f64,
+    bytes: f64,
     limit: f64,
     /// Octaves that have begun since the scene's end, and the step at which the next begins.
     octave: u32,
@@ -96,13 +96,13 @@ impl Cadence {
         Self {
             fields: every(rhythm.fields),
             scalars: every(rhythm.scalars),
-            asked,
+            every_asked: asked,
             budget,
             last,
             expected: steps,
             recorded: 0,
-            taken: 0.0,
-            weight: spent[0],
+            fields_bytes: 0.0,
+            bytes: spent[0],
             limit: OWN_SHARE * budget,
             octave: 0,
             octave_end: steps,
@@ -111,18 +111,18 @@ impl Cadence {
 
     /// Bytes that may still come in this octave; never none, so that there is something to divide by.
     fn left(&self) -> f64 {
-        (self.limit - self.weight - self.last).max(1e-3 * self.budget)
+        (self.limit - self.bytes - self.last).max(1e-3 * self.budget)
     }
 
     /// Bytes of a frame's fields, on average.
     fn frame(&self) -> f64 {
-        self.taken / self.recorded.max(1) as f64
+        self.fields_bytes / self.recorded.max(1) as f64
     }
 
     /// What of a step is recorded. Asked once for each step.
     pub(crate) fn due(&mut self, step: u64) -> Due {
         let first = self.recorded == 0;
-        let holds = |more: f64| first || self.weight + self.last + more <= self.limit;
+        let holds = |more: f64| first || self.bytes + self.last + more <= self.limit;
         let (frame, scalars) = (holds(self.frame() + SCALARS_BYTES), holds(SCALARS_BYTES));
         let fields = frame && self.fields.takes(step);
         // A frame without its scalars would be a picture without numbers.
@@ -133,7 +133,7 @@ impl Cadence {
     /// The fields of a step were recorded: so many bytes.
     pub(crate) fn note_fields(&mut self, bytes: f64) {
         self.recorded += 1;
-        self.taken += bytes;
+        self.fields_bytes += bytes;
     }
 
     /// What was decided, in words.
@@ -142,10 +142,10 @@ impl Cadence {
             1 => "every step".to_owned(),
             n => format!("one step in {n}"),
         };
-        let why = if self.fields.steps > self.asked {
+        let why = if self.fields.steps > self.every_asked {
             format!(
                 ", more seldom than asked for (one in {}) to stay within",
-                self.asked
+                self.every_asked
             )
         } else {
             ", within".to_owned()
@@ -161,9 +161,9 @@ impl Cadence {
     }
 
     /// Takes up what all that was recorded by this step weighs, bytes; a text when recording becomes rarer from here on.
-    pub(crate) fn watch(&mut self, step: u64, weight: f64) -> Option<String> {
+    pub(crate) fn watch(&mut self, step: u64, bytes: f64) -> Option<String> {
         let now = step as f64;
-        self.weight = weight;
+        self.bytes = bytes;
         let before = (self.fields.steps, self.scalars.steps);
         if now >= self.octave_end {
             self.begin_octave();
@@ -176,7 +176,7 @@ impl Cadence {
         Some(format!(
             "step {step}: the recording holds about {:.1} of {:.1} MB; from here on fields are recorded in \
              one step in {}, scalars in one in {}",
-            (weight + self.last) * 1e-6,
+            (bytes + self.last) * 1e-6,
             self.budget * 1e-6,
             self.fields.steps,
             self.scalars.steps
@@ -207,7 +207,7 @@ impl Cadence {
         self.octave_end += steps;
         self.limit = (1.0 - MARGIN) * self.budget;
         let share = self.left() / f64::from(self.octave + 1);
-        self.limit = self.weight + self.last + share;
+        self.limit = self.bytes + self.last + share;
         let scalars = LATER_SCALARS_SHARE * share;
         self.scalars.thin(steps * SCALARS_BYTES / scalars);
         self.fields.thin(steps * self.frame() / (share - scalars));
@@ -240,19 +240,19 @@ mod tests {
     /// Bytes after so many steps, the steps whose fields and the number whose scalars were recorded, and the notes
     /// given.
     fn run(cadence: &mut Cadence, steps: u64, frame: f64) -> (f64, Vec<u64>, usize, usize) {
-        let (mut weight, mut taken, mut scalars, mut notes) = (1e5, Vec::new(), 0, 0);
+        let (mut bytes, mut taken, mut scalars, mut notes) = (1e5, Vec::new(), 0, 0);
         for step in 1..=steps {
             let due = cadence.due(step);
             if due.fields {
                 taken.push(step);
-                weight += frame;
+                bytes += frame;
                 cadence.note_fields(frame);
             }
             scalars += usize::from(due.scalars);
-            weight += STEP * f64::from(u8::from(due.scalars));
-            notes += usize::from(cadence.watch(step, weight).is_some());
+            bytes += STEP * f64::from(u8::from(due.scalars));
+            notes += usize::from(cadence.watch(step, bytes).is_some());
         }
-        (weight + ALWAYS_BYTES, taken, scalars, notes)
+        (bytes + ALWAYS_BYTES, taken, scalars, notes)
     }
 
     #[test]

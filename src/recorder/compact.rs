@@ -25,6 +25,8 @@ const MOST_ROWS: usize = 4096;
 
 /// What comes after the recording's own chunks, made of what is in them.
 pub(crate) trait Epilogue {
+    /// Whether the recording has been compacted: its chunks then stay as they are.
+    const ON_COMPACTED: bool;
     /// Takes up a chunk; those of an entity come in the order of time.
     fn see(&mut self, chunk: &Chunk);
     /// What to add.
@@ -35,6 +37,8 @@ pub(crate) trait Epilogue {
 pub(crate) struct NoEpilogue;
 
 impl Epilogue for NoEpilogue {
+    const ON_COMPACTED: bool = false;
+
     fn see(&mut self, _chunk: &Chunk) {}
 
     fn chunks(self) -> Result<Vec<Chunk>, String> {
@@ -127,7 +131,7 @@ impl Compactor {
     }
 
     /// A message of the old file. What holds always stays as it is, and where it is: before what it explains.
-    fn take(&mut self, message: &LogMsg, epilogue: &mut impl Epilogue) -> Result<(), String> {
+    fn take<E: Epilogue>(&mut self, message: &LogMsg, epilogue: &mut E) -> Result<(), String> {
         let LogMsg::ArrowMsg(store, arrow) = message else {
             return self.append(message);
         };
@@ -144,6 +148,9 @@ impl Compactor {
             return self.append(message);
         }
         epilogue.see(&chunk);
+        if E::ON_COMPACTED {
+            return self.append(message);
+        }
         self.take_rows(&chunk)
     }
 

@@ -27,7 +27,7 @@ use asperity_picture::{Look, Ramp, Scope};
 pub(crate) const DECADES: f64 = 3.0;
 const WIDTH: f64 = 2.0;
 const HEIGHT: f64 = 1.5;
-/// Depth that is shown, in a: twice that of the greatest shear stress. Below there is no damage to speak of.
+/// Depth that is shown, in a: twice that of the maximum shear stress. Below there is no damage to speak of.
 const DEPTH: f64 = 1.5;
 /// Damage less than this many powers of ten below the reference is as good as none.
 const LEAST: f32 = -12.0;
@@ -182,14 +182,14 @@ impl Block {
     }
 }
 
-/// log10 D depth by depth down to so many depths, `least` at least; NaN in columns that have not crossed.
-pub(crate) fn powers(block: &DamageBlock, shown: usize, least: f32) -> Vec<f32> {
+/// log10 D depth by depth down to so many depths, `floor` at least; NaN in columns that have not crossed.
+pub(crate) fn powers(block: &DamageBlock, shown: usize, floor: f32) -> Vec<f32> {
     let (columns, depths) = (block.columns, block.depths_m.len());
     let mut powers = vec![f32::NAN; columns * shown];
     for (column, damage) in block.damage.chunks_exact(depths.max(1)).enumerate() {
         if damage.iter().any(|&damage| damage > 0.0) {
             for (row, damage) in damage.iter().take(shown).enumerate() {
-                powers[row * columns + column] = damage.log10().max(least);
+                powers[row * columns + column] = damage.log10().max(floor);
             }
         }
     }

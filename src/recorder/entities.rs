@@ -21,7 +21,7 @@ pub(crate) mod slice {
     /// The followed material point, and its path.
     pub(crate) const POINT: &str = "slice_y0/material_point";
     pub(crate) const POINT_NOW: &str = "slice_y0/material_point/now";
-    /// Where the stress is greatest.
+    /// Where the stress has its maximum.
     pub(crate) const PEAK: &str = "slice_y0/greatest_stress";
     /// Hertz's contact on the surface.
     pub(crate) const HERTZ: &str = "slice_y0/hertz_width";
@@ -33,7 +33,7 @@ pub(crate) mod slice {
 pub(crate) mod slice_over_log_depth {
     pub(crate) const EFFECTIVE: &str = "slice_over_log_depth/effective_stress_GPa";
     pub(crate) const TAU_XZ: &str = "slice_over_log_depth/tau_xz_GPa";
-    /// The followed point, and where the stress is greatest.
+    /// The followed point, and where the stress has its maximum.
     pub(crate) const MARKS: &str = "slice_over_log_depth/marks";
     pub(crate) const POINT: &str = "slice_over_log_depth/marks/followed_point";
     pub(crate) const PEAK: &str = "slice_over_log_depth/marks/greatest_stress";

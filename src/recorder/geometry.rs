@@ -14,7 +14,7 @@ pub(crate) struct Geometry {
     pub(crate) dx: f64,
     pub(crate) y_min: f64,
     pub(crate) dy: f64,
-    /// Hertz half-widths at the greatest load to come: what is cut out around the contact holds it then too.
+    /// Hertz half-widths at the largest load to come: what is cut out around the contact holds it then too.
     pub(crate) a: f64,
     pub(crate) b: f64,
 }

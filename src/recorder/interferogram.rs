@@ -104,7 +104,7 @@ impl Interferogram {
     }
 
     /// The film at the nodes' x on a row of pixels, m, and its rise across a pixel along y; rows count from the
-    /// least y.
+    /// smallest y.
     fn nodes_of(&self, film_m: &[f32], row: usize, nodes: &mut Vec<f32>, across: &mut Vec<f32>) {
         let (j, part) = (self.from[1] + row / self.finer, row % self.finer);
         let row_of = |j: usize| &film_m[j * self.geometry.nx + self.from[0]..][..self.nodes[0]];

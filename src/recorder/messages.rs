@@ -3,13 +3,16 @@
 //! ```text
 //! file     "RRF2", 8 bytes; messages
 //! message  kind, length (u64 each, little-endian), that many bytes
-//! data     protobuf; field 2: compression, 3: length without it, 5: the bytes (Arrow IPC)
+//! data     protobuf: compression, length without it, the bytes (Arrow IPC)
 //! end      a message of kind 0: the index; then 32 bytes: where it lies, "RRF2FOOT", how many there are (u32)
 //! ```
 
 use std::io::{BufReader, ErrorKind, Read};
 use std::path::Path;
 
+use re_protos::common::v1alpha1::Compression;
+use re_protos::log_msg::v1alpha1::ArrowMsg;
+use rerun::external::re_log_encoding::Decodable as _;
 use rerun::external::re_log_encoding::external::lz4_flex;
 
 const FOUR_CC: &[u8] = b"RRF2";
@@ -28,7 +31,6 @@ const LAST_KIND: u64 = 3;
 const LONGEST: u64 = 1 << 28;
 /// No byte of a compressed block stands for more.
 const MOST_EXPANSION: u64 = 255;
-const LZ4: u64 = 2;
 
 /// Where the messages end.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -149,64 +151,17 @@ fn little_endian(bytes: &[u8]) -> u64 {
 
 /// Hands on the data of a message; `None` where they cannot be read.
 fn data_of(message: &[u8], take: &mut impl FnMut(&[u8])) -> Option<()> {
-    let (mut compression, mut length, mut payload) = (0, 0, &[][..]);
-    let mut rest = message;
-    while !rest.is_empty() {
-        let (field, after) = field(rest)?;
-        match field {
-            WireField::Number(2, value) => compression = value,
-            WireField::Number(3, value) => length = value,
-            WireField::Bytes(5, bytes) => payload = bytes,
-            _ => {}
-        }
-        rest = after;
-    }
-    if compression != LZ4 {
-        take(payload);
+    let data = ArrowMsg::from_rrd_bytes(message).ok()?;
+    if data.compression() != Compression::Lz4 {
+        take(&data.payload);
         return Some(());
     }
-    if length > MOST_EXPANSION * payload.len() as u64 || length > LONGEST {
+    let length = data.uncompressed_size;
+    if length > MOST_EXPANSION * data.payload.len() as u64 || length > LONGEST {
         return None;
     }
-    let data = lz4_flex::block::decompress(payload, length as usize).ok()?;
-    take(&data);
+    take(&lz4_flex::block::decompress(&data.payload, length as usize).ok()?);
     Some(())
-}
-
-/// A field of a protobuf message.
-enum WireField<'a> {
-    Number(u64, u64),
-    Bytes(u64, &'a [u8]),
-    Other,
-}
-
-/// The first field, and what follows it.
-fn field(bytes: &[u8]) -> Option<(WireField<'_>, &[u8])> {
-    let (tag, rest) = varint(bytes)?;
-    let number = tag >> 3;
-    match tag & 7 {
-        0 => varint(rest).map(|(value, rest)| (WireField::Number(number, value), rest)),
-        1 => Some((WireField::Other, rest.get(8..)?)),
-        2 => {
-            let (length, rest) = varint(rest)?;
-            let (bytes, rest) = rest.split_at_checked(usize::try_from(length).ok()?)?;
-            Some((WireField::Bytes(number, bytes), rest))
-        }
-        5 => Some((WireField::Other, rest.get(4..)?)),
-        _ => None,
-    }
-}
-
-/// A number of seven bits a byte, the least first.
-fn varint(bytes: &[u8]) -> Option<(u64, &[u8])> {
-    let mut value = 0;
-    for (k, byte) in bytes.iter().enumerate().take(10) {
-        value |= u64::from(byte & 0x7f).checked_shl(7 * k as u32)?;
-        if byte & 0x80 == 0 {
-            return Some((value, &bytes[k + 1..]));
-        }
-    }
-    None
 }
 
 #[cfg(test)]
@@ -235,7 +190,7 @@ mod tests {
     /// Field 3: length, field 5: payload, compressed.
     fn compressed(text: &[u8], length: u64) -> Vec<u8> {
         let payload = lz4_flex::block::compress(text);
-        let mut bytes = vec![2 << 3, LZ4 as u8, 3 << 3];
+        let mut bytes = vec![2 << 3, Compression::Lz4 as u8, 3 << 3];
         let mut left = length;
         while left >= 0x80 {
             bytes.push(left as u8 | 0x80);

@@ -2,9 +2,9 @@
 
 use std::time::SystemTime;
 
-use rerun::TimeCell;
 use rerun::log::Chunk;
 use rerun::time::TimePoint;
+use rerun::{TimeCell, TimeColumn};
 
 /// Timelines of every frame.
 pub(crate) const STEP: &str = "step";
@@ -59,4 +59,14 @@ impl Moment {
             .with_index(SIMULATED_TIME, TimeCell::from_duration_nanos(self.nanos))
             .with_index(PASSAGE, TimeCell::from_sequence(self.passage))
     }
+}
+
+/// The three timelines of so many rows.
+pub(crate) fn time_columns(moments: &[Moment]) -> [TimeColumn; 3] {
+    let of = |part: fn(&Moment) -> i64| moments.iter().map(part);
+    [
+        TimeColumn::new_sequence(STEP, of(|at| at.step)),
+        TimeColumn::new_duration_nanos(SIMULATED_TIME, of(|at| at.nanos)),
+        TimeColumn::new_sequence(PASSAGE, of(|at| at.passage)),
+    ]
 }

@@ -9,9 +9,6 @@ use super::stream::Stream;
 use asperity_engine::math::number::nice_ceiling;
 use asperity_picture::{Look, Ramp};
 
-/// Greatest number in half precision.
-pub(crate) const MOST: f32 = 65_504.0;
-
 /// The viewer's map of those colours.
 fn colormap(ramp: Ramp) -> Colormap {
     match ramp {
@@ -33,7 +30,7 @@ fn store(look: &Look, field: Field, halves: &mut Vec<u16>) -> Beyond {
     let (factor, top) = (look.unit.per_si as f32, top(look) as f32);
     let mut beyond = Beyond::default();
     field.write_to(halves, |row, halves| {
-        beyond.add(store_row(row, factor, top, halves), row, factor);
+        beyond.add(store_row(row, factor, top, halves));
     });
     beyond
 }
@@ -52,38 +49,18 @@ pub(crate) struct Beyond {
     pub(crate) above: u64,
     /// The maximum sample by its size, in the unit.
     pub(crate) maximum: f32,
-    /// Samples that could not be stored as they are: too great, or no numbers.
-    pub(crate) clipped: u64,
-    /// By how much at most, in the unit.
-    pub(crate) clipped_by: f32,
 }
 
 impl Beyond {
-    fn add(&mut self, (above, maximum): (u32, u32), row: &[f32], factor: f32) {
+    fn add(&mut self, (above, maximum): (u32, u32)) {
         self.above += u64::from(above);
+        // What is no number (which a field never holds by its contract) is as great as can be.
         let maximum = f32::from_bits(maximum);
-        if maximum <= MOST {
-            self.maximum = self.maximum.max(maximum);
-            return;
-        }
-        for value in row.iter().map(|value| (value * factor).abs()) {
-            self.maximum = self.maximum.max(value);
-            // Of what is no number (which a field never holds by its contract) nobody knows by how much.
-            if value > MOST || value.is_nan() {
-                self.clipped += 1;
-                self.clipped_by = self.clipped_by.max(value - MOST);
-            }
-        }
-    }
-
-    /// Both.
-    pub(crate) fn with(self, other: Self) -> Self {
-        Self {
-            above: self.above + other.above,
-            maximum: self.maximum.max(other.maximum),
-            clipped: self.clipped + other.clipped,
-            clipped_by: self.clipped_by.max(other.clipped_by),
-        }
+        self.maximum = if maximum.is_nan() {
+            f32::INFINITY
+        } else {
+            self.maximum.max(maximum)
+        };
     }
 }
 
@@ -249,22 +226,20 @@ mod tests {
                 "{value}: {error}"
             );
         }
-        assert_eq!(beyond.clipped, 0);
         let above = values.iter().filter(|value| value.abs() > 2e9).count();
         assert_eq!(beyond.above, above as u64);
     }
 
     #[test]
-    fn what_cannot_be_stored_takes_the_end_and_is_counted() {
+    fn what_cannot_be_stored_takes_the_end_and_is_told() {
         let unit = Look {
             range: [-2.0, 2.0],
             ..look(Unit::new("Pa", 1.0))
         };
         let (back, beyond) = stored(&unit, &[0.0, 7e4, -1e5, 65_504.0, 1.0]);
         assert_eq!(back, [0.0, 65_504.0, -65_504.0, 65_504.0, 1.0]);
-        assert_eq!((beyond.clipped, beyond.clipped_by), (2, 1e5 - MOST));
         assert_eq!((beyond.above, beyond.maximum), (3, 1e5));
-        let (_, beyond) = stored(&unit, &[f32::NAN, f32::INFINITY]);
-        assert_eq!(beyond.clipped, 2);
+        let (_, beyond) = stored(&unit, &[f32::NAN]);
+        assert_eq!(beyond.maximum, f32::INFINITY);
     }
 }

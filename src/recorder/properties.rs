@@ -88,7 +88,7 @@ impl Last {
 }
 
 /// What the last frame says, at the end: also of a run that was stopped, or of the explorer's.
-pub(crate) fn log_result(stream: &Stream, last: &Last, clipped: u64) {
+pub(crate) fn log_result(stream: &Stream, last: &Last) {
     let m = &last.metrics;
     let life = m.life.as_ref();
     let values = NamedValues::default()
@@ -104,8 +104,7 @@ pub(crate) fn log_result(stream: &Stream, last: &Last, clipped: u64) {
             "life_relative_high",
             life.map(|life| life.life_relative_high),
         )
-        .number("load_factor", life.map(|life| life.load_factor))
-        .number("clipped_samples", clipped as f64);
+        .number("load_factor", life.map(|life| life.load_factor));
     stream.log_static(result(), &values.0);
 }
 

@@ -3,7 +3,7 @@
 //!
 //! Values are stored in the unit of the entity's name as 16-bit floating-point numbers: eleven significant bits
 //! (0.05 %) of everything between 6e-5 and 65 504, so that a film of 5 nm and the bath of 50 µm beside it are in one
-//! picture and nothing depends on a range that was guessed. A value beyond is stored as the greatest, and counted.
+//! picture and nothing depends on a range that was guessed. A value beyond is stored as the largest that there is; *Now* tells how large it is.
 
 use std::cell::Cell;
 
@@ -32,9 +32,8 @@ pub(crate) struct RasterEntity {
     look: Look,
     legend: Legend,
     columns: usize,
-    /// Of the picture that was logged last, and of all.
+    /// Of the picture that was logged last.
     last: Cell<Beyond>,
-    all: Cell<Beyond>,
 }
 
 impl RasterEntity {
@@ -65,7 +64,6 @@ impl RasterEntity {
             legend,
             columns: pixels.columns,
             last: Cell::default(),
-            all: Cell::default(),
         };
         raster.log_range(stream);
         raster
@@ -89,7 +87,6 @@ impl RasterEntity {
         let image = DepthImage::update_fields().with_buffer(values);
         stream.log(&self.entity, &image);
         self.last.set(beyond);
-        self.all.set(self.all.get().with(beyond));
     }
 
     /// The upper rows of a growing picture: as many as there are values for.
@@ -107,11 +104,6 @@ impl RasterEntity {
     /// What of the last picture lay beyond the ranges.
     pub(crate) fn beyond(&self) -> Beyond {
         self.last.get()
-    }
-
-    /// Same of all pictures.
-    pub(crate) fn beyond_in_all(&self) -> Beyond {
-        self.all.get()
     }
 
     /// What its numbers and colours mean.

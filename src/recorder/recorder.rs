@@ -132,7 +132,7 @@ impl Recorder {
         let stream = &self.stream;
         let due = views.cadence.due(frame.step);
         if due.scalars {
-            views.series.log(stream, frame);
+            views.series.follow(stream, frame);
         }
         views.follow(frame);
         let before = stream.expected_bytes();
@@ -179,6 +179,9 @@ impl Recorder {
             turns: self.turns,
             ended,
         };
+        if let Some(views) = &mut self.views {
+            views.series.send(&self.stream);
+        }
         self.stream.flush(Some((REACH, reach)))
     }
 
@@ -255,11 +258,6 @@ impl Observer for Recorder {
     }
 
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
-        let (clipped, clipped_words) = self
-            .views
-            .as_ref()
-            .map(RunViews::clipped)
-            .unwrap_or_default();
         if self.views.is_none() && !self.stream.is_gone() {
             // A run without a frame still tells what happened.
             self.stream.set_time(Moment::new(0, 0.0, 0.0));
@@ -269,15 +267,11 @@ impl Observer for Recorder {
             && !self.stream.is_gone()
         {
             if let Some(last) = &self.last {
-                properties::log_result(&self.stream, last, clipped);
+                properties::log_result(&self.stream, last);
             }
             views.finish(&self.stream);
             let last = format!("the recording ends after {} steps", self.frames);
             text::log_line(&self.stream, &last, TextLogLevel::INFO);
-            if clipped > 0 {
-                let words = format!("values that could not be stored as they are: {clipped_words}");
-                text::log_line(&self.stream, &words, TextLogLevel::WARN);
-            }
         }
         if !self.stream.is_gone() {
             self.flush(true)?;
@@ -285,21 +279,9 @@ impl Observer for Recorder {
         self.stream.close()?;
         let (stream, frames) = (&self.stream, self.frames);
         let mut report = stream.to().report(stream.output(), frames, self.unsent);
-        for note in [
-            (clipped > 0).then(|| format!("clipped: {clipped_words}")),
-            stream
-                .to()
-                .file()
-                .and_then(RecordingFile::not_compacted)
-                .map(|reason| format!("without a footer, so viewers read all of it: {reason}")),
-        ]
-        .into_iter()
-        .flatten()
-        {
-            if !report.note.is_empty() {
-                report.note.push_str("; ");
-            }
-            report.note.push_str(&note);
+        let not_compacted = stream.to().file().and_then(RecordingFile::not_compacted);
+        if let Some(reason) = not_compacted {
+            report.note = format!("without a footer, so viewers read all of it: {reason}");
         }
         Ok(report)
     }

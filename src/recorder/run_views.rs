@@ -7,7 +7,7 @@ use super::entities::{kymograph, maps as map_entities};
 use super::geometry::Geometry;
 use super::kymograph::{ExpectedRun, KymographEntity};
 use super::maps::{self, Maps};
-use super::picture::{Beyond, top};
+use super::picture::top;
 use super::profile::ProfileEntity;
 use super::raster::RasterEntity;
 use super::scalars;
@@ -21,7 +21,6 @@ use super::text::{self, AboveRange, WidenedRange};
 use super::tooth::ToothEntity;
 use super::trace::TraceEntity;
 use super::view::View;
-use asperity_engine::math::number::sig;
 use asperity_engine::observe::ObserveError;
 use asperity_engine::scene::{Record, Scene};
 use asperity_engine::sim::Frame;
@@ -176,27 +175,6 @@ impl RunViews {
             unit: raster.look().unit.name,
         });
         all.filter(|one| one.beyond.above > 0).collect()
-    }
-
-    /// Samples that could not be stored as they are, and words about them.
-    pub(crate) fn clipped(&self) -> (u64, String) {
-        let clipped = |(entity, raster): (&'static str, &RasterEntity)| {
-            let Beyond {
-                clipped,
-                clipped_by,
-                ..
-            } = raster.beyond_in_all();
-            let unit = raster.look().unit.name;
-            let by = sig(clipped_by.into(), 3);
-            (clipped > 0).then(|| {
-                (
-                    clipped,
-                    format!("{clipped} of {entity} by up to {by} {unit}"),
-                )
-            })
-        };
-        let (counts, words): (Vec<u64>, Vec<String>) = self.rasters().filter_map(clipped).unzip();
-        (counts.iter().sum(), words.join(", "))
     }
 
     /// Takes up a step with its fields.

@@ -8,6 +8,7 @@ use rerun::{Color, SeriesLines};
 use super::colour::curve::{BLUE, GREEN, GREY, OLIVE, ORANGE, PURPLE, SKY, VERMILION};
 use super::entities::SCALARS;
 use super::entities::series::{LIFE, POINT_CYCLES, YIELDED};
+use super::moment::Moment;
 use super::scalars;
 use super::stream::Stream;
 use asperity_engine::scene::ContactKind;
@@ -230,8 +231,16 @@ pub(crate) fn entity(quantity: &Quantity, kind: ContactKind) -> String {
     format!("series/{}_{unit}", stem.unwrap_or(quantity.name))
 }
 
-/// The series of a recording.
-pub(crate) struct Series(Vec<(String, CurveGroup)>);
+/// The series of a recording, with what waits to be sent: row by row it would cost more than all pictures.
+pub(crate) struct Series(Vec<SeriesColumn>);
+
+struct SeriesColumn {
+    entity: String,
+    curves: CurveGroup,
+    lines: usize,
+    moments: Vec<Moment>,
+    values: Vec<f64>,
+}
 
 impl Series {
     /// Logs names and colours, once for the whole recording, and collects from there on.
@@ -242,27 +251,46 @@ impl Series {
     /// Same for the entities that `keep` says.
     pub(crate) fn chosen(stream: &Stream, kind: ContactKind, keep: impl Fn(&str) -> bool) -> Self {
         let kept = groups(kind).filter(|(entity, _)| keep(entity));
-        let kept: Vec<(String, CurveGroup)> = kept.collect();
-        for (entity, curves) in &kept {
+        let columns = kept.map(|(entity, curves)| {
             let lines = curves.lines(kind);
+            let column = SeriesColumn {
+                entity,
+                curves,
+                lines: lines.len(),
+                moments: Vec::new(),
+                values: Vec::new(),
+            };
             let colours = lines.iter().map(|(_, colour)| Color::from(*colour));
             let style = SeriesLines::new()
                 .with_colors(colours)
                 .with_widths(lines.iter().map(|_| 1.8));
             let style = style.with_names(lines.into_iter().map(|(name, _)| name));
-            stream.log_static(entity.as_str(), &style);
-        }
-        Self(kept)
+            stream.log_static(column.entity.as_str(), &style);
+            column
+        });
+        Self(columns.collect())
     }
 
-    /// Logs a step's scalars.
-    pub(crate) fn log(&self, stream: &Stream, frame: &Frame) {
-        let mut values = Vec::new();
-        for (entity, curves) in &self.0 {
-            values.clear();
-            curves.add(frame, &mut values);
-            if !values.is_empty() {
-                stream.log_scalars(entity, &values);
+    /// Takes up a step's scalars, at the time that was set last.
+    pub(crate) fn follow(&mut self, stream: &Stream, frame: &Frame) {
+        for column in &mut self.0 {
+            let before = column.values.len();
+            column.curves.add(frame, &mut column.values);
+            if column.values.len() > before {
+                column.moments.push(stream.now());
+                stream.count_scalars(column.lines);
+            }
+        }
+    }
+
+    /// Sends what waits.
+    pub(crate) fn send(&mut self, stream: &Stream) {
+        for column in &mut self.0 {
+            if !column.moments.is_empty() {
+                let (moments, values) = (&column.moments, &column.values);
+                stream.log_columns(&column.entity, moments, values, column.lines);
+                column.moments.clear();
+                column.values.clear();
             }
         }
     }

@@ -16,7 +16,7 @@ const ROW: f64 = 45.0;
 /// The same of a row of scalars, of which a chunk has many more, and each of its numbers: digits are not compressed.
 const SCALARS_ROW: f64 = 27.0;
 const SCALAR: f64 = 8.0;
-/// What holds always, each: a message and its place in the footer.
+/// What holds always, or until it is logged again, each: a message and its place in the footer.
 const MESSAGE: f64 = 2.6e3;
 /// Share that compression leaves of texts and of what changes seldom.
 pub(crate) const TEXT: f64 = 0.65;
@@ -74,8 +74,8 @@ impl SizeEstimate {
         self.bytes += SCALARS_ROW + SCALAR * count as f64;
     }
 
-    /// Adds what holds for the whole recording.
-    pub(crate) fn add_static(&mut self, batches: &[SerializedComponentBatch]) {
+    /// Adds what is logged once, or seldom.
+    pub(crate) fn add_message(&mut self, batches: &[SerializedComponentBatch]) {
         self.bytes += MESSAGE + TEXT * raw_bytes(batches) as f64;
     }
 }

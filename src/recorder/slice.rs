@@ -217,7 +217,7 @@ impl View for Slice {
         self.tau_xz.widen(stream, look(Subject::ShearStress));
     }
 
-    /// Effective stress, where it is greatest, and the followed point. A frame without a slice changes nothing.
+    /// Effective stress, where it has its maximum, and the followed point. A frame without a slice changes nothing.
     fn log(&mut self, stream: &Stream, frame: &Frame) {
         let Some(slice) = self.slice(frame) else {
             return;

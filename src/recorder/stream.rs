@@ -15,7 +15,7 @@ use rerun::{
 use super::destination::Destination;
 use super::file::RecordingFile;
 use super::live::{self, Live};
-use super::moment::{Moment, check_clock};
+use super::moment::{Moment, check_clock, time_columns};
 use super::note::Note;
 use super::size::SizeEstimate;
 use asperity_engine::observe::{ObserveError, Overwrite};
@@ -164,12 +164,42 @@ impl Stream {
         self.recording.record_row(self.path(entity), row, false);
     }
 
-    /// Logs numbers at the time that was set last.
-    pub(crate) fn log_scalars(&self, entity: &str, values: &[f64]) {
-        self.size.borrow_mut().add_scalars(values.len());
-        let data = Scalars::new(values.iter().copied());
-        let row = PendingRow::from_iter(self.now.get().timepoint(), data.as_serialized_batches());
-        self.recording.record_row(self.path(entity), row, false);
+    /// The time that was set last.
+    pub(crate) fn now(&self) -> Moment {
+        self.now.get()
+    }
+
+    /// Counts numbers of a step that will be logged as columns.
+    pub(crate) fn count_scalars(&self, count: usize) {
+        self.size.borrow_mut().add_scalars(count);
+    }
+
+    /// Logs the numbers of many steps: `width` of each.
+    pub(crate) fn log_columns(
+        &self,
+        entity: &str,
+        moments: &[Moment],
+        values: &[f64],
+        width: usize,
+    ) {
+        let lengths = std::iter::repeat_n(width, moments.len());
+        let columns = Scalars::new(values.iter().copied()).columns(lengths);
+        let sent = columns
+            .map_err(|error| error.to_string())
+            .and_then(|columns| {
+                let sent =
+                    self.recording
+                        .send_columns(self.path(entity), time_columns(moments), columns);
+                sent.map_err(|error| error.to_string())
+            });
+        self.note_refused(sent);
+    }
+
+    /// Keeps why something could not be logged, for [`Stream::check`].
+    fn note_refused(&self, logged: Result<(), String>) {
+        if let Err(reason) = logged {
+            self.refused.borrow_mut().get_or_insert(reason);
+        }
     }
 
     /// Logs what holds for the whole recording.
@@ -179,7 +209,7 @@ impl Stream {
         data: &(impl AsComponents + ?Sized),
     ) {
         let batches = data.as_serialized_batches();
-        self.size.borrow_mut().add_static(&batches);
+        self.size.borrow_mut().add_message(&batches);
         self.send_row(entity.into(), TimePoint::default(), batches);
     }
 
@@ -197,18 +227,19 @@ impl Stream {
     }
 
     fn send_row(&self, entity: EntityPath, at: TimePoint, batches: Vec<SerializedComponentBatch>) {
-        match PendingRow::from_iter(at, batches).into_chunk(self.path(entity)) {
-            Ok(chunk) => self.recording.send_chunk(chunk),
-            Err(error) => {
-                let mut refused = self.refused.borrow_mut();
-                refused.get_or_insert_with(|| error.to_string());
-            }
-        }
+        let chunk = PendingRow::from_iter(at, batches).into_chunk(self.path(entity));
+        let sent = chunk.map(|chunk| self.recording.send_chunk(chunk));
+        self.note_refused(sent.map_err(|error| error.to_string()));
     }
 
-    /// Whether rows have waited long enough to be flushed. What goes to viewers the batcher flushes by itself.
+    /// Whether rows have waited long enough to be flushed.
     pub(crate) fn is_flush_due(&self) -> bool {
-        !self.is_live() && self.flushed.elapsed() >= FLUSH_TICK
+        let tick = if self.is_live() {
+            LIVE_BATCHES.flush_tick
+        } else {
+            FLUSH_TICK
+        };
+        self.flushed.elapsed() >= tick
     }
 
     /// Writes the rows that wait to the file, and after them how far it then goes: of several such notes the finished file

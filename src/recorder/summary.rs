@@ -44,6 +44,8 @@ struct SummaryEpilogue<'a> {
 }
 
 impl Epilogue for SummaryEpilogue<'_> {
+    const ON_COMPACTED: bool = true;
+
     fn see(&mut self, chunk: &Chunk) {
         let path = chunk.entity_path().to_string();
         let entity = path.trim_start_matches('/');

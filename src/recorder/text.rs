@@ -165,7 +165,7 @@ fn lecture(frame: &Frame, caption: &str) -> String {
     } else {
         let _ = writeln!(
             text,
-            "# {} GPa\n\n### greatest pressure\n",
+            "# {} GPa\n\n### maximum pressure\n",
             sig(m.p_max_pa * 1e-9, 3)
         );
     }

@@ -77,11 +77,11 @@ impl View for ToothEntity {
         let line = &self.line;
         let place_m = self.tooth.place_m(line, frame.time_s);
         // After E the run goes on as it was there.
-        let held_m = place_m.clamp(line.a, line.e);
+        let clamped_m = place_m.clamp(line.a, line.e);
         let [across, high] = half_picture(&self.gears);
         for (gear, entity) in OUTLINES.into_iter().enumerate() {
             let mut strips = Strips::default();
-            for at in self.gears.outline(line, gear, held_m, 2) {
+            for at in self.gears.outline(line, gear, clamped_m, 2) {
                 let [x, y] = [at[0] * MM, -at[1] * MM];
                 if x.abs() <= across && y.abs() <= high {
                     strips.to([x as f32, y as f32]);
@@ -91,13 +91,13 @@ impl View for ToothEntity {
             }
             strips.log(stream, entity);
         }
-        let at = in_view(self.gears.contact(line, held_m));
+        let at = in_view(self.gears.contact(line, clamped_m));
         stream.log(CONTACT, &Points2D::update_fields().with_positions([at]));
         let m = &frame.metrics;
-        let radius_mm = MM * held_m * (line.length - held_m) / line.length;
+        let radius_mm = MM * clamped_m * (line.length - clamped_m) / line.length;
         let values = [GPA.of(frame.p_hertz_pa), m.slide_roll, radius_mm];
         for (path, value) in self.paths.iter().zip(values) {
-            path.log(stream, (held_m - line.a) * MM, value);
+            path.log(stream, (clamped_m - line.a) * MM, value);
         }
     }
 }
@@ -146,11 +146,11 @@ impl PathCurve {
         line_of_action: &LineOfAction,
     ) -> Self {
         let all = || values.iter().map(|[_, y]| *y);
-        let (least, most) = (all().fold(0.0, f64::min), all().fold(0.0, f64::max));
-        let top = nice_ceiling(most.max(1e-9));
+        let (minimum, maximum) = (all().fold(0.0, f64::min), all().fold(0.0, f64::max));
+        let top = nice_ceiling(maximum.max(1e-9));
         let range = [
-            if least < 0.0 {
-                -nice_ceiling(-least)
+            if minimum < 0.0 {
+                -nice_ceiling(-minimum)
             } else {
                 0.0
             },

@@ -135,7 +135,7 @@ fn measure(threads: usize) {
     let stats = queue.stats();
     let ended = Instant::now();
     let bytes = queue.finish().unwrap().bytes;
-    let binding = ended.elapsed();
+    let compacting = ended.elapsed();
     let mut ratios: Vec<f64> = with
         .iter()
         .zip(&without)
@@ -160,10 +160,10 @@ fn measure(threads: usize) {
         100.0 * (fastest(&with) / fastest(&without) - 1.0),
     );
     println!(
-        "  {:.2} ms of processor a frame in the threads that record; {:.1} MB, bound at the end in {:.2} s; {stats}",
+        "  {:.2} ms of processor a frame in the threads that record; {:.1} MB, compacted at the end in {:.2} s; {stats}",
         1e3 * used / steps,
         bytes as f64 * 1e-6,
-        binding.as_secs_f64()
+        compacting.as_secs_f64()
     );
 }
 

@@ -146,7 +146,7 @@ fn contact(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     .into()
 }
 
-/// The effective stress with its greatest and the followed point: of a line over the logarithm of the depth; else a row
+/// The effective stress with its maximum and the followed point: of a line over the logarithm of the depth; else a row
 /// for each of the solver's depths, which crowd below the surface as on such an axis.
 /// The `name` of a run of several ends the title.
 pub(crate) fn stress(views: &mut Views, shown: &ShownViews, name: &str) -> Option<ContainerLike> {
@@ -262,7 +262,7 @@ fn life(views: &mut Views) -> ContainerLike {
     let middle = Vertical::new([
         contacts(views, 1),
         contacts(views, 2),
-        views.single("Greatest effective stress, GPa", "series/stress_GPa"),
+        views.single("Maximum effective stress, GPa", "series/stress_GPa"),
     ]);
     let right = Vertical::new([
         views.document("Now", text::NOW),
@@ -296,7 +296,7 @@ fn pressure_series(views: &mut Views) -> ContainerLike {
     views.named(
         "Pressure, GPa",
         &["series/pressure_GPa"],
-        &["greatest", "Hertz"],
+        &["maximum", "Hertz"],
     )
 }
 
@@ -308,7 +308,7 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
         views.named(
             "Film, µm",
             &["series/film_um"],
-            &["centre", "mean", "least"],
+            &["centre", "mean", "minimum"],
         ),
         views.named("Contact, %", &["series/contact_percent"], &["area", "load"]),
         views.single("Friction coefficient", "series/friction"),
