@@ -11,7 +11,7 @@
 //! business on a machine that others use, which is why this is a bench.
 #![expect(clippy::unwrap_used, reason = "a bench, which may end in a panic")]
 
-use std::io::Write;
+use std::io::{BufWriter, Write};
 use std::num::NonZero;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,8 +22,9 @@ use asperity_engine::scene::{Scene, presets};
 use asperity_engine::sim::Stage;
 use asperity_explorer::tui::app::App;
 use asperity_explorer::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
-use asperity_explorer::tui::{RunStatus, Setup, TerminalLine, view};
+use asperity_explorer::tui::{RunStatus, Setup, view};
 use asperity_session::run::{Command, Ending, Request, Session};
+use ratatui::backend::CrosstermBackend;
 use ratatui::layout::Rect;
 use ratatui::{Terminal, TerminalOptions, Viewport};
 
@@ -53,7 +54,7 @@ impl Write for Sink {
 struct Show {
     session: Session,
     app: App,
-    terminal: Terminal<TerminalLine<Sink>>,
+    terminal: Terminal<CrosstermBackend<BufWriter<Sink>>>,
     bytes: Arc<AtomicUsize>,
     start: Instant,
     drawings: u32,
@@ -90,11 +91,11 @@ impl Show {
             viewport: Viewport::Fixed(screen),
         };
         let bytes = Arc::default();
-        let line = TerminalLine::new(Sink(Arc::clone(&bytes)), screen.as_size());
+        let out = BufWriter::with_capacity(1 << 18, Sink(Arc::clone(&bytes)));
         Self {
             session: Session::start(request).unwrap(),
             app: App::new(setup, Vec::new(), theme),
-            terminal: Terminal::with_options(line, options).unwrap(),
+            terminal: Terminal::with_options(CrosstermBackend::new(out), options).unwrap(),
             bytes,
             start: Instant::now(),
             drawings: 0,

@@ -19,6 +19,8 @@ pub(crate) struct Terminal {
     pub(crate) folder: tempfile::TempDir,
     /// Milliseconds that the line takes for 4 kB.
     pub(crate) lag_ms: Arc<AtomicU64>,
+    /// Bytes that came.
+    pub(crate) received: Arc<AtomicU64>,
 }
 
 fn size(cols: u16, rows: u16) -> PtySize {
@@ -55,18 +57,14 @@ impl Terminal {
         let screen = Arc::clone(&parser);
         let lag_ms = Arc::new(AtomicU64::new(0));
         let lag = Arc::clone(&lag_ms);
+        let received = Arc::new(AtomicU64::new(0));
+        let count = Arc::clone(&received);
         std::thread::spawn(move || {
             let mut bytes = [0; 4096];
-            loop {
-                let lag = lag.load(Ordering::Relaxed);
-                // A slow line brings little at a time, not all at the end of a pause.
-                let most = if lag > 100 { 64 } else { bytes.len() };
-                let Ok(n @ 1..) = reader.read(&mut bytes[..most]) else {
-                    return;
-                };
+            while let Ok(n @ 1..) = reader.read(&mut bytes) {
                 screen.lock().unwrap().process(&bytes[..n]);
-                let pause = lag * if lag > 100 { n as u64 } else { 4096 } / 4096;
-                std::thread::sleep(Duration::from_millis(pause));
+                count.fetch_add(n as u64, Ordering::Relaxed);
+                std::thread::sleep(Duration::from_millis(lag.load(Ordering::Relaxed)));
             }
         });
         let mut terminal = Self {
@@ -76,6 +74,7 @@ impl Terminal {
             shell,
             folder,
             lag_ms,
+            received,
         };
         terminal.see("READY>");
         terminal

@@ -15,7 +15,7 @@ use asperity_engine::sim::{Frame, Simulation};
 use asperity_explorer::tui::action::Action;
 use asperity_explorer::tui::app::{App, MapKind};
 use asperity_explorer::tui::event::{Pointer, PointerAct};
-use asperity_explorer::tui::pixels::Pixels;
+use asperity_explorer::tui::pixels::Medium;
 use asperity_explorer::tui::theme::{ColorDepth, Glyphs};
 use asperity_explorer::tui::view;
 use asperity_picture::export::{Export, Format};
@@ -246,7 +246,7 @@ fn compare(scene: &Scene, of_export: &Scene) -> Compared {
     let mut export = Export::create(&pictures, Overwrite::Refuse, &[Format::Png]).unwrap();
     let setup = setup_planned(scene, "a test", &Plan::new(scene).unwrap());
     let mut app = App::new(setup, Vec::new(), theme(ColorDepth::True, Glyphs::Unicode));
-    app.set_pixels(Pixels::Kitty);
+    app.set_medium(Medium::Page);
     app.apply(Action::Zoom);
     recorder.begin(&context(scene)).unwrap();
     export.begin(&context(of_export)).unwrap();

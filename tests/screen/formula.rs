@@ -125,7 +125,7 @@ fn table(name: &str, base: &Scene, report: &mut String) -> Vec<f64> {
     ratios
 }
 
-/// Least, middle and greatest of the ratios.
+/// Minimum, median and maximum of the ratios.
 fn spread(mut ratios: Vec<f64>) -> String {
     ratios.sort_by(f64::total_cmp);
     let within = |factor: f64| {
@@ -133,7 +133,7 @@ fn spread(mut ratios: Vec<f64>) -> String {
         ratios.iter().filter(inside).count()
     };
     format!(
-        "{} states: least {}, middle {}, greatest {}; {} within a factor of 1.5, {} within 3",
+        "{} states: minimum {}, median {}, maximum {}; {} within a factor of 1.5, {} within 3",
         ratios.len(),
         sig(ratios[0], 2),
         sig(ratios[ratios.len() / 2], 2),

@@ -85,8 +85,8 @@ fn wrong(lesson: &Lesson, ends: &[(Frame, Option<Frame>)]) -> Vec<String> {
                 "{} {:?} = {value:?}, claimed {} to {}",
                 claim.measure.of.name(),
                 claim.measure.over,
-                claim.least,
-                claim.most
+                claim.min,
+                claim.max
             );
             println!("    {told}");
             if !claim.holds(frame, before) {
@@ -204,7 +204,7 @@ fn a_planted_wrong_claim_fails() {
         for claim in 0..good.beats[place].claims.len() {
             let mut planted = good.clone();
             let bounds = &mut planted.beats[place].claims[claim];
-            (bounds.least, bounds.most) = (1.1 * bounds.most, 2.0 * bounds.most);
+            (bounds.min, bounds.max) = (1.1 * bounds.max, 2.0 * bounds.max);
             assert_eq!(
                 wrong(&planted, &ends).len(),
                 1,

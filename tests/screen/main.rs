@@ -4,7 +4,6 @@
 mod common;
 mod formula;
 mod lessons;
-mod line;
 mod memory;
 mod numbers;
 mod screens;

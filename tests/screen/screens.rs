@@ -13,7 +13,7 @@ use asperity_engine::scene::Surface;
 use asperity_engine::sim::Frame;
 use asperity_explorer::tui::action::{Action, KEYS};
 use asperity_explorer::tui::app::{App, Effect, MapKind, PanelKind};
-use asperity_explorer::tui::pixels::Pixels;
+use asperity_explorer::tui::pixels::Medium;
 use asperity_explorer::tui::theme::{ColorDepth, Glyphs, Theme};
 use asperity_explorer::tui::{Health, RunStatus, view};
 use asperity_session::run::Command;
@@ -240,7 +240,7 @@ fn many(theme: Theme) -> Vec<App> {
 
 #[test]
 fn ascii_terminals_get_ascii_only() {
-    for app in many(theme(ColorDepth::Basic, Glyphs::Ascii)) {
+    for app in many(theme(ColorDepth::Indexed, Glyphs::Ascii)) {
         for (width, height) in [(60, 20), (160, 48), (40, 5)] {
             let drawn = text(&app, width, height);
             let foreign = drawn.chars().find(|letter| !letter.is_ascii());
@@ -527,10 +527,10 @@ fn maps_in_pixels_are_the_maps_in_blocks() {
     let screen = Rect::new(0, 0, 120, 36);
     let mut app = running(theme(ColorDepth::True, Glyphs::Unicode));
     for _ in MapKind::ALL {
-        app.set_pixels(Pixels::Blocks);
+        app.set_medium(Medium::Terminal);
         let blocks = buffer(&app, 120, 36);
         assert_eq!(view::picture_area(&app, screen), None);
-        app.set_pixels(Pixels::Kitty);
+        app.set_medium(Medium::Page);
         let bare = buffer(&app, 120, 36);
         let picture = view::picture(&app, screen, (1, 2)).unwrap();
         assert_eq!(Some(picture.area), view::picture_area(&app, screen));

@@ -3,6 +3,7 @@
 #![cfg(all(feature = "tui", unix))]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use crate::common::pty::{PATIENCE, Terminal};
@@ -125,15 +126,38 @@ fn a_key_beside_a_new_size_is_heard() {
     terminal.is_given_back("code=0");
 }
 
+/// A run that waits changes nothing on its screen, and nothing is written; a key is still heard.
+#[test]
+fn a_screen_that_does_not_change_is_not_written() {
+    let mut terminal = open(&[("COLORTERM", "truecolor")]);
+    terminal.explore(&run(SMALL));
+    terminal.wait("passage", |screen| screen.contents().contains("passage "));
+    terminal.press(" ");
+    terminal.wait("pause", |screen| !screen.contents().contains("steps/s"));
+    let received = |terminal: &Terminal| terminal.received.load(Ordering::Relaxed);
+    // The step that was under way, and messages, end within seconds.
+    let until = Instant::now() + PATIENCE;
+    loop {
+        let before = received(&terminal);
+        std::thread::sleep(Duration::from_secs(1));
+        if received(&terminal) == before {
+            break;
+        }
+        assert!(Instant::now() < until, "{}", terminal.text());
+    }
+    terminal.press("?");
+    terminal.see("choose a knob");
+    terminal.press("?q");
+    terminal.is_given_back("code=0");
+}
+
 /// A slow line, 100 kB/s: frames are skipped, not queued, so that what is pressed is seen soon, and the end comes.
 #[test]
 fn a_slow_line_is_no_hang() {
     let mut terminal = open(&[("COLORTERM", "truecolor")]);
     terminal.resize(160, 48);
     terminal.explore(&run(SMALL));
-    terminal
-        .lag_ms
-        .store(40, std::sync::atomic::Ordering::Relaxed);
+    terminal.lag_ms.store(40, Ordering::Relaxed);
     for _ in 0..10 {
         terminal.press("l");
     }

@@ -64,7 +64,7 @@ fn a_long_message_is_whole_on_every_screen() {
 
 #[test]
 fn the_light_contrast_brings_its_own_paper() {
-    for depth in [ColorDepth::True, ColorDepth::Indexed, ColorDepth::Basic] {
+    for depth in [ColorDepth::True, ColorDepth::Indexed] {
         let mut light = theme(depth, Glyphs::Unicode);
         light.contrast = Contrast::Light;
         for app in [app(light), running(light)] {

@@ -184,7 +184,7 @@ await test("light contrast, by a link and by its key", async () => {
 
 await test("a lesson asks and answers", async () => {
   const page = await opened(`${disk}#lesson=load`);
-  const question = "The load is doubled. What does the greatest pressure";
+  const question = "The load is doubled. What does the maximum pressure";
   for (let beat = 0; beat < 4; beat++) {
     await page.waitForTimeout(2500);
     if ((await state(page)).text.includes(question)) break;

@@ -257,7 +257,8 @@ impl Counting {
 pub(super) fn contacts(
     plan: &Plan,
     a_m: f64,
-    (u_m_s, s): (f64, f64),
+    u_m_s: f64,
+    s: f64,
     amplitudes_m: [f64; 2],
 ) -> [Option<f64>; 2] {
     let kinematics = Kinematics::from_slide_roll(u_m_s, s, 2.0 * a_m);

@@ -115,7 +115,7 @@ impl DamageCount {
             self.is_known &= tracker.damage_cycles(distances, &mut body.cycles);
             let depths = body.cycles.len().max(1);
             for (law, out) in body.ln_ratios.chunks_exact_mut(depths).enumerate() {
-                body.columns.ln_ratios(law, (body.own, body.needed), out);
+                body.columns.ln_ratios(law, body.own, body.needed, out);
             }
         }
     }

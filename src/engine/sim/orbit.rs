@@ -177,7 +177,8 @@ impl Orbit {
         &mut self,
         distance: f64,
         step: f64,
-        fields: (&[f64], &[f64]),
+        pressure: &[f64],
+        film: &[f64],
         metrics: &Metrics,
     ) {
         if self.rhythm == Rhythm::Statistics {
@@ -185,7 +186,7 @@ impl Orbit {
             return;
         }
         self.ring.rotate_left(1);
-        self.ring[3].take(distance, fields.0, fields.1);
+        self.ring[3].take(distance, pressure, film);
         self.taken = self.taken.saturating_add(1);
         if self.taken == 1 {
             self.begin(step);
@@ -367,7 +368,7 @@ mod tests {
             metrics.h_central_m = field[16];
             (metrics.h_min_m, metrics.p_max_pa) = (1.0, 1.0);
             orbit.listen(frequencies, 4.0);
-            orbit.push(distance, step, (&field, &field), &metrics);
+            orbit.push(distance, step, &field, &field, &metrics);
         }
         orbit.repeat(1.0)
     }

@@ -170,7 +170,9 @@ impl Simulation {
             Stepping::Adaptive { .. } if !steady => {
                 self.state.distance >= self.plan.decided.length_a * (1.0 - 1e-9)
             }
-            _ => self.state.step >= self.plan.decided.steps,
+            Stepping::Adaptive { .. } | Stepping::Fixed(_) => {
+                self.state.step >= self.plan.decided.steps
+            }
         };
         self.state.phase == Phase::Passage && enough
     }

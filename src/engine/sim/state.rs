@@ -117,7 +117,11 @@ impl State {
         let targets = Drive::new(|knob| {
             let value = match knob {
                 Knob::EntrainmentMS => knob.of(scene).abs(),
-                _ => knob.of(scene),
+                Knob::SlideRoll
+                | Knob::ForceN
+                | Knob::ForceNPerM
+                | Knob::Amplitude1M
+                | Knob::Amplitude2M => knob.of(scene),
             };
             (value, knob.line().ramp.rate(value))
         });

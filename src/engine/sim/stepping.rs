@@ -131,7 +131,8 @@ pub(super) fn place_surfaces(
     solver: &mut Solver,
     roughness: &mut Roughness,
     scaling: &Scaling,
-    (drive, motion): (&Drive, &Travel),
+    drive: &Drive,
+    motion: &Travel,
     yielded: Option<&Yielded>,
 ) {
     let grid = &solver.grid;
@@ -152,7 +153,7 @@ pub(super) fn place_surfaces(
         roughness.place(grid, body, travel, amplitude);
         if let Some(yielded) = yielded {
             let lowered = &mut roughness.heights[body];
-            yielded.lower(grid, body, (travel, amplitude), lowered);
+            yielded.lower(grid, body, travel, amplitude, lowered);
         }
     }
     roughness.gap_into(&solver.macroscopic, &mut solver.gap);
@@ -345,7 +346,8 @@ impl Mover<'_> {
             self.solver,
             self.roughness,
             &self.plan.scaling,
-            (self.drive, self.motion),
+            self.drive,
+            self.motion,
             self.yielded.as_deref(),
         );
     }

@@ -166,7 +166,7 @@ impl StressStage {
             {
                 &companions.mate
             }
-            _ => &self.slice,
+            (BodyId::One | BodyId::Two, _) => &self.slice,
         }
     }
 
@@ -183,7 +183,7 @@ impl StressStage {
                 Some(Loading::Normal(BodyId::One))
             }
             (Loading::Full(body), TractionActs::None) => Some(Loading::Normal(body)),
-            _ => None,
+            (Loading::Normal(_), _) | (Loading::Full(_), _) => None,
         }
     }
 

@@ -93,7 +93,8 @@ impl Yielded {
         &self,
         grid: &Grid,
         body: usize,
-        (travel, amplitude): (BodyTravel, f64),
+        travel: BodyTravel,
+        amplitude: f64,
         heights: &mut [f64],
     ) {
         if let Some(skin) = &self.skins[body]
@@ -267,7 +268,7 @@ mod tests {
             let round = yielded.skins[0].as_ref().map_or(0.0, |skin| skin.length);
             let seen = |yielded: &Yielded, travelled: f64, x: f64| {
                 let mut heights = vec![0.0; grid.len()];
-                yielded.lower(&grid, 0, (travel(travelled), 0.0), &mut heights);
+                yielded.lower(&grid, 0, travel(travelled), 0.0, &mut heights);
                 let there = spot(&grid, x);
                 let off = heights.iter().zip(&there).map(|(z, w)| (z + w).abs());
                 off.fold(0.0, f64::max) / 1e-3
@@ -295,7 +296,7 @@ mod tests {
         let mut yielded = Yielded::new(&grid, [true, true], [Some(0.7); 2]);
         let deepest = |yielded: &Yielded, body: usize, amplitude: f64| {
             let mut heights = vec![0.0; grid.len()];
-            yielded.lower(&grid, body, (travel(0.0), amplitude), &mut heights);
+            yielded.lower(&grid, body, travel(0.0), amplitude, &mut heights);
             heights.into_iter().fold(0.0, f64::min)
         };
         // Body 2 is smooth.

@@ -186,7 +186,7 @@ impl Columns {
 
     /// ln r of every depth by the `law`-th law into `out`: over the finished crossings as far as they reach over
     /// `needed` (in a), over places in the body's own wave of length `own` (`None`: it has none) for the remainder.
-    pub fn ln_ratios(&self, law: usize, (own, needed): (Option<f64>, f64), out: &mut [f64]) {
+    pub fn ln_ratios(&self, law: usize, own: Option<f64>, needed: f64, out: &mut [f64]) {
         let share = (self.finished as f64 * self.dx / needed.max(self.dx)).min(1.0);
         for (k, ln) in out.iter_mut().enumerate().take(self.depths) {
             let top = self.laws[law].of(self.tops[k]);
@@ -290,7 +290,7 @@ mod tests {
 
     fn ratio(columns: &Columns) -> f64 {
         let mut out = [0.0];
-        columns.ln_ratios(0, (Some(0.4), 0.4), &mut out);
+        columns.ln_ratios(0, Some(0.4), 0.4, &mut out);
         out[0].exp()
     }
 

@@ -15,6 +15,10 @@
 //! step that shrank the residual by ρ is the geometric sum ρ/(1 − ρ) of the step; 3 is its safety against steps solved to
 //! 1e-6 (`tests/engine/converged_step.rs`).
 
+use rayon::prelude::*;
+
+use crate::math::grid::Grid;
+
 /// Part of a node's film that a step may leave unbalanced as carry-over to the next one. Of steps that leave
 /// more, the excess is lost: a loose step whose whole residual is carried over blows up near dry.
 pub const CARRIED: f64 = 0.1;
@@ -164,7 +168,7 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    pub(super) fn add(&mut self, row: &Self, weight: f64) {
+    fn add(&mut self, row: &Self, weight: f64) {
         self.merit += weight * row.merit;
         self.film += weight * row.film;
         self.lost += weight * row.lost;
@@ -174,12 +178,102 @@ impl Sums {
     }
 }
 
+/// Sums of an evaluation.
+pub(super) struct Evaluation {
+    pub(super) merit: f64,
+    /// Merit over that before the iteration.
+    pub(super) reduction: f64,
+    pub(super) film_error: f64,
+    pub(super) mass_error: f64,
+    pub(super) load: f64,
+    pub(super) overlap: f64,
+    pub(super) worst_row: usize,
+    pub(super) finite: bool,
+}
+
+impl Evaluation {
+    /// Tells its errors to a report of a contact under `load`; dry there is no flow whose mass could be lost.
+    pub(super) fn note(&self, load: f64, flows: bool, report: &mut NewtonReport) {
+        (report.film_error, report.mass_error) = if flows {
+            (self.film_error, self.mass_error)
+        } else {
+            (0.0, 0.0)
+        };
+        report.load_error = (self.load / load - 1.0).abs();
+        report.overlap = self.overlap;
+    }
+}
+
+/// What an iterate is judged by, shape ny × nx.
+pub(super) struct Judged<'a> {
+    /// P.
+    pub(super) p: &'a [f64],
+    /// H.
+    pub(super) h: &'a [f64],
+    /// F.
+    pub(super) residual: &'a [f64],
+    /// D of the merit.
+    pub(super) reference: &'a [f64],
+    /// ρ̄.
+    pub(super) rho: &'a [f64],
+}
+
+impl Judged<'_> {
+    /// Sums over the grid; `rows` is scratch, one a row.
+    pub(super) fn sum(&self, grid: &Grid, least_film: f64, rows: &mut [Sums]) -> Evaluation {
+        let (nx, interior) = (grid.nx, grid.interior_rows());
+        let each = rows.par_iter_mut().enumerate().with_min_len(8);
+        each.filter(|(j, _)| interior.contains(j))
+            .for_each(|(j, row)| {
+                // The boundary has no equation; whether surfaces overlap there is asked by `march.rs`.
+                let here = j * nx + 1..(j + 1) * nx - 1;
+                *row = sum_row(
+                    &self.residual[here.clone()],
+                    &self.p[here.clone()],
+                    &self.reference[here.clone()],
+                    &self.rho[here.clone()],
+                    &self.h[here],
+                    least_film,
+                );
+            });
+        let mut total = Sums::default();
+        let (mut worst_row, mut largest) = (0, 0.0);
+        for j in grid.interior_rows() {
+            let row = &rows[j];
+            if row.largest > largest {
+                (worst_row, largest) = (j, row.largest);
+            }
+            total.add(row, grid.weight(j));
+        }
+        let mass = total.mass.max(f64::MIN_POSITIVE);
+        Evaluation {
+            merit: total.merit,
+            reduction: 1.0,
+            film_error: total.film / mass,
+            mass_error: total.lost / mass,
+            load: total.load,
+            overlap: total.overlap,
+            worst_row,
+            finite: total.merit.is_finite() && total.load.is_finite(),
+        }
+    }
+
+    /// Node of the largest |φ| in a row.
+    pub(super) fn worst_node(&self, grid: &Grid, row: usize) -> usize {
+        let phi = |n: usize| self.p[n].min(self.residual[n] / self.reference[n]).abs();
+        let nodes = row * grid.nx + 1..(row + 1) * grid.nx - 1;
+        nodes
+            .max_by(|&a, &b| phi(a).total_cmp(&phi(b)))
+            .unwrap_or_default()
+    }
+}
+
 /// Values side by side in the sums of a row.
 const LANES: usize = 8;
 
 dispatched! {
 /// Sums over the inner nodes of one row.
-pub(super) fn sum_row(
+fn sum_row(
     f: &[f64],
     p: &[f64],
     reference: &[f64],

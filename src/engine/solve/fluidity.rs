@@ -157,7 +157,7 @@ impl Fluidity {
     fn of(&self, direction: FlowDirection) -> &Fluidities {
         match (direction, &self.across) {
             (FlowDirection::Across, Some(across)) if self.is_directed => across,
-            _ => &self.along,
+            (FlowDirection::Across | FlowDirection::Along, _) => &self.along,
         }
     }
 

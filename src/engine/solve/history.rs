@@ -117,13 +117,7 @@ impl History {
     }
 
     /// C* and s for a step of `nodes` nodes after such a past.
-    pub fn convect(
-        &self,
-        grid: &Grid,
-        (nodes, past): (f64, Past),
-        c_star: &mut [f64],
-        s: &mut [f64],
-    ) {
+    pub fn convect(&self, grid: &Grid, nodes: f64, past: Past, c_star: &mut [f64], s: &mut [f64]) {
         let dt = nodes * grid.dx;
         let ([_, v2, v3], implicit) = formula(nodes, past);
         let (before, earlier) = match past {
@@ -203,7 +197,7 @@ impl History {
     /// A steady film has one too: its inlet is steep for oil that comes in. Summed with signs because a kink
     /// of the film that lies between nodes gives a large error and its opposite next to each other, which a sum
     /// of sizes would take for time's.
-    pub fn path_error(&self, grid: &Grid, (mass, p): (&[f64], &[f64]), nodes: f64) -> Option<f64> {
+    pub fn path_error(&self, grid: &Grid, mass: &[f64], p: &[f64], nodes: f64) -> Option<f64> {
         if self.earlier_nodes <= 0.0 {
             return None;
         }
@@ -308,7 +302,7 @@ mod tests {
         history.mass_2 = row(1.0);
         history.last_nodes = 0.5;
         let (mut c, mut s) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
-        history.convect(&grid, (0.5, Past::Two(history.last_nodes)), &mut c, &mut s);
+        history.convect(&grid, 0.5, Past::Two(history.last_nodes), &mut c, &mut s);
         for n in 5..30 {
             assert!((c[n] - cubic(grid.x(n))).abs() < 1e-10);
             assert!((s[n] - 0.5 * grid.dx * 2.0 / 3.0).abs() < 1e-12);
@@ -360,10 +354,10 @@ mod tests {
             let now = field(nodes);
             // Pressure at one node of a row: nothing is gathered from others.
             let pressed: Vec<f64> = (0..grid.len()).map(|n| f64::from(n % 17 == 8)).collect();
-            let error = history.path_error(&grid, (&now, &pressed), nodes);
+            let error = history.path_error(&grid, &now, &pressed, nodes);
             // BDF2 with the exact slope 3 g t² at the new time.
             let (mut c, mut s) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
-            history.convect(&grid, (nodes, Past::Two(last)), &mut c, &mut s);
+            history.convect(&grid, nodes, Past::Two(last), &mut c, &mut s);
             let slope = 3.0 * g * nodes * nodes / grid.dx;
             let true_error = (c[8] + s[8] * slope - now[8]).abs() / now[8] / nodes;
             let ratio = error.expect("three steps") / true_error;

@@ -17,26 +17,21 @@
 //! Source: Hintermüller, Ito and Kunisch (2002), SIAM J. Optim. 13, 865-888: the active set as a semi-smooth Newton method.
 //! Ours: the border of the load, the film as unknown at the upper bound, what is carried over.
 
-mod correct;
-mod follow;
-mod sums;
-
 use rayon::prelude::*;
 
 pub use super::converge::{CARRIED, NewtonReport, OVERLAP, Tolerance, Verdict};
-use super::converge::{FIRST_FORCING, Sums, forcing_after, left_of};
+use super::converge::{Evaluation, FIRST_FORCING, Judged, Sums, forcing_after, left_of};
 use super::film::Elastic;
 use super::jacobian::Jacobian;
 use super::krylov::Krylov;
 use super::newton_rows::{film_row, move_pressure, set_rhs, split_row};
 use super::precondition::Preconditioner;
-use super::reynolds::{Linearisation, Medium, Reynolds};
+use super::reynolds::{Guessed, Lacking, Linearisation, Medium, Reynolds};
 use super::tangential::Shear;
 pub use super::tangential::Sheared;
 use super::yielding::Yielding;
 use crate::math::grid::Grid;
 use crate::scene::Order;
-use sums::Evaluation;
 
 /// Most halvings of the line search; untuned.
 const MAX_HALVINGS: u32 = 4;
@@ -59,6 +54,13 @@ pub struct Problem<'a> {
     pub load: f64,
     /// Tolerances.
     pub tolerance: Tolerance,
+}
+
+impl Problem<'_> {
+    /// Whether oil flows; dry, the film equation is H ≥ 0.
+    fn flows(&self) -> bool {
+        self.medium.lambda.is_finite()
+    }
 }
 
 /// The iterate: pressure, film and approach.
@@ -91,6 +93,8 @@ pub struct Newton {
     pub order: Order,
     /// C* with what the flow of second order lacks.
     corrected: Vec<f64>,
+    /// What the flow of second order lacks.
+    lacking: Lacking,
     reference: Vec<f64>,
     old_p: Vec<f64>,
     v: Vec<f32>,
@@ -124,6 +128,7 @@ impl Newton {
             deflection: vec![0.0; n],
             order,
             corrected: vec![0.0; n],
+            lacking: Lacking::new(n),
             reference: vec![1.0; n],
             old_p: vec![0.0; n],
             v: vec![0.0; n],
@@ -170,8 +175,8 @@ impl Newton {
         let mut now = self.sums_anew(problem, iterate);
         let mut forcing = FIRST_FORCING;
         loop {
-            now.note(problem, &mut report);
-            report.worst_node = self.worst_node(problem.grid, iterate.p, now.worst_row);
+            now.note(problem.load, problem.flows(), &mut report);
+            report.worst_node = self.judged(iterate).worst_node(problem.grid, now.worst_row);
             if !now.finite {
                 report.verdict = Verdict::NotFinite;
                 return report;
@@ -187,6 +192,32 @@ impl Newton {
             let h0_step = self.linear_step(problem, iterate, now.load, forcing, &mut report);
             now = self.line_search(problem, iterate, h0_step, &mut report);
             forcing = forcing_after(now.reduction);
+        }
+    }
+
+    /// Lays what the flow of second order lacks, at the first guess, into C* for the whole step.
+    fn correct(&mut self, problem: &Problem, iterate: &Iterate) {
+        if self.order == Order::Second || !problem.flows() {
+            return;
+        }
+        let at = Guessed {
+            p: iterate.p,
+            h: iterate.h,
+            c_star: problem.c_star,
+            s: problem.s,
+        };
+        let (flow, c_star) = (&mut self.reynolds, &mut self.corrected);
+        self.lacking.correct(flow, problem.grid, &at, c_star);
+    }
+
+    /// A step begins with all of the deflection that the traction of its first guess makes, unless this keeps the last one's.
+    fn begin_traction(&mut self, problem: &Problem, iterate: &mut Iterate) {
+        if let Some((shear, sheared)) = self.shear.as_mut().zip(problem.sheared)
+            && !sheared.keeps
+        {
+            shear.aim(&sheared, iterate.p, iterate.h, problem.tolerance.least_film);
+            shear.follow(iterate.h);
+            self.balance(problem, iterate);
         }
     }
 
@@ -256,7 +287,7 @@ impl Newton {
         }
         if let Some(yielding) = &mut self.yielding {
             let k00 = self.elastic.k00;
-            yielding.split((p, f, d), k00, &self.active, &mut self.fixed);
+            yielding.split(p, f, d, k00, &self.active, &mut self.fixed);
         }
         self.fixed.iter().any(|&v| v != 0.0)
     }
@@ -305,7 +336,8 @@ impl Newton {
             &self.jacobian,
             &self.reynolds.row_scale,
             &self.reynolds.conductance,
-            (pressed, held),
+            pressed,
+            held,
             self.elastic.k00,
         );
         self.krylov
@@ -347,6 +379,71 @@ impl Newton {
         grid.integrate(|n| f64::from(self.fixed[n]))
     }
 
+    /// Lets the deflection by traction follow pressure and film once these are solved with the one that is held, unless what
+    /// it lacks is a small part of the film; the evaluation of what then is.
+    fn follow_traction(
+        &mut self,
+        problem: &Problem,
+        iterate: &mut Iterate,
+        held: Evaluation,
+        base: f64,
+        report: &mut NewtonReport,
+    ) -> Evaluation {
+        let Some((shear, sheared)) = self.shear.as_mut().zip(problem.sheared) else {
+            return held;
+        };
+        let tolerance = &problem.tolerance;
+        let mut new = held;
+        new.note(problem.load, problem.flows(), report);
+        // Dry, the pressure alone makes the traction, and nothing keeps it from following at once.
+        if problem.flows() && !Self::is_converged(tolerance, report) {
+            return new;
+        }
+        let residual = shear.aim(&sheared, iterate.p, iterate.h, tolerance.least_film);
+        report.film_error += residual;
+        if Self::is_converged(tolerance, report) {
+            new.film_error += residual;
+            return new;
+        }
+        shear.set_share();
+        shear.follow(iterate.h);
+        report.followed_at = report.iterations;
+        let lacking = shear.lacking(residual);
+        self.balance(problem, iterate);
+        new = self.sums(problem, iterate);
+        new.film_error += lacking;
+        new.reduction = new.merit / base;
+        report.left = left_of(report.change, new.reduction);
+        new
+    }
+
+    fn judged<'a>(&'a self, iterate: &'a Iterate) -> Judged<'a> {
+        Judged {
+            p: iterate.p,
+            h: iterate.h,
+            residual: &self.reynolds.residual,
+            reference: &self.reference,
+            rho: self.reynolds.densities(),
+        }
+    }
+
+    /// [`Self::sums`] with the D of this evaluation.
+    fn sums_anew(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
+        self.reference.copy_from_slice(&self.reynolds.diagonal);
+        self.sums(problem, iterate)
+    }
+
+    /// Sums of the evaluation; the merit uses the frozen D in `reference`.
+    fn sums(&mut self, problem: &Problem, iterate: &Iterate) -> Evaluation {
+        let mut rows = std::mem::take(&mut self.rows);
+        let least_film = problem.tolerance.least_film;
+        let sums = self
+            .judged(iterate)
+            .sum(problem.grid, least_film, &mut rows);
+        self.rows = rows;
+        sums
+    }
+
     /// Takes the step, halved until the natural residual falls; leaves the new evaluation.
     fn line_search(
         &mut self,
@@ -366,8 +463,8 @@ impl Newton {
             let (mut moved, mut total) =
                 move_pressure(&self.old_p, &self.v, &self.active, t, iterate.p);
             if let Some(yielding) = &mut self.yielding {
-                let films = (&self.v[..], self.elastic.k00);
-                (moved, total) = yielding.bound(&self.old_p, films, t, iterate.p);
+                let k00 = self.elastic.k00;
+                (moved, total) = yielding.bound(&self.old_p, &self.v, k00, t, iterate.p);
             }
             *iterate.h0 = old_h0 + t * h0_step;
             report.change = moved / total.max(f64::MIN_POSITIVE) / t;
@@ -376,7 +473,7 @@ impl Newton {
             new.reduction = new.merit / base;
             report.left = left_of(report.change, new.reduction);
             if new.finite && new.merit <= base || halving == MAX_HALVINGS {
-                return self.follow_traction(problem, iterate, (new, base), report);
+                return self.follow_traction(problem, iterate, new, base, report);
             }
             t *= 0.5;
         }

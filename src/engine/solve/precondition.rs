@@ -102,7 +102,8 @@ impl Preconditioner {
         jacobian: &Jacobian,
         diagonal: &[f64],
         conductance: &[f64],
-        (active, held): (&[bool], Option<&[bool]>),
+        active: &[bool],
+        held: Option<&[bool]>,
         k00: f64,
     ) {
         let nx = grid.nx;
@@ -149,7 +150,8 @@ impl Preconditioner {
         jacobian.local_residual(
             grid,
             &self.extra,
-            (z, solved),
+            z,
+            solved,
             r,
             &self.scale,
             &mut self.residual,

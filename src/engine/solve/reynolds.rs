@@ -25,8 +25,7 @@ mod linearise;
 
 use rayon::prelude::*;
 
-pub use deferred::Guessed;
-use deferred::Lacking;
+pub use deferred::{Guessed, Lacking};
 pub use linearise::Linearisation;
 
 use super::faces::{Faces, conductances};
@@ -63,8 +62,6 @@ pub struct Reynolds {
     east: Vec<f64>,
     north: Vec<f64>,
     scratch: Vec<Scratch>,
-    /// What the flow of second order lacks.
-    lacking: Lacking,
     /// F, film units.
     pub residual: Vec<f64>,
     /// D.
@@ -98,7 +95,6 @@ impl Reynolds {
             east: zero.clone(),
             north: zero.clone(),
             scratch,
-            lacking: Lacking::new(n),
             residual: zero.clone(),
             diagonal: vec![1.0; n],
             conductance: zero,

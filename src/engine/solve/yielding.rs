@@ -91,7 +91,9 @@ impl Yielding {
     /// Parts the active nodes into held and pressed; `fixed` is the change of pressure that is known.
     pub(super) fn split(
         &mut self,
-        (p, f, d): (&[f64], &[f64], &[f64]),
+        p: &[f64],
+        f: &[f64],
+        d: &[f64],
         k00: f64,
         active: &[bool],
         fixed: &mut [f32],
@@ -129,7 +131,8 @@ impl Yielding {
     pub(super) fn bound(
         &mut self,
         old: &[f64],
-        (v, k00): (&[f32], f64),
+        v: &[f32],
+        k00: f64,
         t: f64,
         p: &mut [f64],
     ) -> (f64, f64) {

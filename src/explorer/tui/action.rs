@@ -2,8 +2,8 @@
 
 mod table;
 
-use crate::tui::app::PanelKind;
 use crate::tui::event::{Chord, KeyName, Modifiers};
+use crate::tui::kinds::PanelKind;
 use asperity_engine::scene::Knob;
 
 pub use table::{KEYS, MOUSE};
@@ -93,13 +93,11 @@ pub enum Action {
     /// The keys speak of this panel.
     Focus(PanelKind),
     /// The keys speak of the panel so many places further on.
-    NextPanel(usize),
+    NextPanel(i32),
     /// Other units.
     Units,
     /// Other contrast.
     Contrast,
-    /// The map in half blocks, sixels, kitty's pixels.
-    Pixels,
     /// The keys.
     Help,
     /// What is computed, what is left out, and why.
@@ -168,7 +166,7 @@ pub fn lookup(chord: Chord) -> Option<Action> {
 pub fn lookup_typed(chord: Chord) -> Option<Action> {
     let chord = normal(chord);
     match chord.key {
-        KeyName::Char(letter) if chord.held == Modifiers::NONE => Some(Action::Letter(letter)),
+        KeyName::Char(letter) if chord.modifiers == Modifiers::NONE => Some(Action::Letter(letter)),
         KeyName::Backspace => Some(Action::Erase),
         KeyName::Enter => Some(Action::Enter),
         KeyName::Esc => Some(Action::Close),
@@ -179,8 +177,8 @@ pub fn lookup_typed(chord: Chord) -> Option<Action> {
 /// Shift is part of a character already; terminals disagree on whether they name it too.
 fn normal(mut chord: Chord) -> Chord {
     if let KeyName::Char(letter) = &mut chord.key {
-        chord.held.shift = false;
-        if chord.held.control {
+        chord.modifiers.shift = false;
+        if chord.modifiers.control {
             *letter = letter.to_ascii_lowercase();
         }
     }

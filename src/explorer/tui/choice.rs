@@ -7,6 +7,7 @@ mod numbers;
 
 pub use self::draft::{Draft, Form};
 
+use crate::tui::kinds::shifted;
 use crate::tui::units::{Units, sig};
 use asperity_engine::scene::{LifeModel, Scene, StressMeasure, Surface};
 
@@ -182,12 +183,6 @@ impl Choice {
             }
         }
     }
-}
-
-/// The next of a list, round and round.
-fn shifted<T: Copy + PartialEq>(all: &[T], now: T, by: i32) -> T {
-    let place = all.iter().position(|one| *one == now).unwrap_or(0) as i32;
-    all[(place + by).rem_euclid(all.len() as i32) as usize]
 }
 
 /// Ten steps a decade, to three digits.

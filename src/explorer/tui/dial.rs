@@ -2,7 +2,7 @@
 
 use crate::tui::units::{Unit, Units};
 use asperity_engine::plan::Plan;
-use asperity_engine::scene::{ContactKind, Knob, Scene, Steps, Surface};
+use asperity_engine::scene::{ContactKind, Knob, Scene, SceneError, Steps, Surface};
 
 /// Whether a dial can be turned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub struct Dial {
     /// Typical values and what they are typical of, for the digit keys.
     pub typical: Vec<(f64, &'static str)>,
     /// Whether it can be turned.
-    pub life: DialState,
+    pub state: DialState,
 }
 
 impl Dial {
@@ -79,6 +79,23 @@ impl Dial {
     /// Whether it is the dial for `knob`; a lesson that turns the load means either kind of it.
     pub fn answers(&self, knob: Knob) -> bool {
         self.knob == knob || self.knob.is_load() && knob.is_load()
+    }
+
+    /// A value, refused in words where a hand could not turn it there.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] with knob, value and range.
+    pub fn checked(&self, value: f64) -> Result<f64, SceneError> {
+        let key = self.knob.key();
+        if let DialState::Dead(reason) = self.state {
+            let reason = format!("nothing: the surface is {reason}");
+            return Err(SceneError::value(key, value, reason));
+        }
+        if (self.min..=self.max).contains(&value) {
+            return Ok(value);
+        }
+        let range = format!("{} to {} {}", self.min, self.max, self.knob.unit());
+        Err(SceneError::value(key, value, range))
     }
 
     /// Where on the slider a value is, 0 to 1.
@@ -134,7 +151,7 @@ pub fn dials(scene: &Scene, load_n: f64, p_hertz_pa: f64) -> Vec<Dial> {
         };
         let mut dial = dial(knob, home, (kind, p_hertz_pa));
         if knob.surface(scene).is_some_and(Surface::is_smooth) {
-            dial.life = DialState::Dead("smooth");
+            dial.state = DialState::Dead("smooth");
         }
         // The run would refuse a load beyond its domain.
         if knob.is_load()
@@ -164,7 +181,7 @@ fn dial(knob: Knob, home: f64, load: (ContactKind, f64)) -> Dial {
         now: home,
         target: home,
         typical,
-        life: DialState::Live,
+        state: DialState::Live,
     }
 }
 
@@ -244,7 +261,7 @@ mod tests {
             dials
                 .iter()
                 .find(|dial| dial.knob == knob)
-                .map(|dial| dial.life)
+                .map(|dial| dial.state)
         };
         assert_eq!(life(Knob::Amplitude1M), Some(DialState::Dead("smooth")));
         assert_eq!(life(Knob::Amplitude2M), Some(DialState::Live));

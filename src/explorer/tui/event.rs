@@ -74,13 +74,13 @@ pub struct Chord {
     /// Key.
     pub key: KeyName,
     /// Held beside it.
-    pub held: Modifiers,
+    pub modifiers: Modifiers,
 }
 
 impl Chord {
     /// A key with those held beside it.
-    pub const fn new(key: KeyName, held: Modifiers) -> Self {
-        Self { key, held }
+    pub const fn new(key: KeyName, modifiers: Modifiers) -> Self {
+        Self { key, modifiers }
     }
 }
 

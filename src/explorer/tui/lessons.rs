@@ -10,8 +10,8 @@ mod tour;
 
 use std::sync::{Arc, LazyLock};
 
-use crate::tui::app::{MapKind, PanelKind, PointQuantity};
-use crate::tui::dial::{Dial, DialState};
+use crate::tui::dial::Dial;
+use crate::tui::kinds::{MapKind, PanelKind, PointQuantity};
 use asperity_engine::scene::{Override, Scene, SceneError};
 use asperity_engine::sim::Knob;
 pub use figure::{Claim, ComparedWith, LessonFigure, LessonMeasure, LessonQuestion};
@@ -104,23 +104,6 @@ impl Lesson {
         let mut own = sets.filter(|(knob, _)| dial.answers(*knob));
         own.next().map(|(_, setting)| *setting)
     }
-}
-
-/// A value for a dial, refused in words where a hand could not turn it there.
-///
-/// # Errors
-/// [`SceneError::Value`] with knob, value and range.
-pub fn reached(dial: &Dial, value: f64) -> Result<f64, SceneError> {
-    let key = dial.knob.key();
-    if let DialState::Dead(reason) = dial.life {
-        let reason = format!("nothing: the surface is {reason}");
-        return Err(SceneError::value(key, value, reason));
-    }
-    if (dial.min..=dial.max).contains(&value) {
-        return Ok(value);
-    }
-    let range = format!("{} to {} {}", dial.min, dial.max, dial.knob.unit());
-    Err(SceneError::value(key, value, range))
 }
 
 /// A file of `assets/lessons` with its name.

@@ -16,6 +16,7 @@ pub mod dial;
 pub mod estimate;
 pub mod event;
 mod explorer;
+pub mod kinds;
 mod kymograph;
 pub mod lessons;
 pub mod pixels;
@@ -31,7 +32,7 @@ pub mod wiring;
 
 pub use explorer::{Control, Explorer};
 #[cfg(not(target_arch = "wasm32"))]
-pub use terminal::{TerminalLine, explore};
+pub use terminal::explore;
 pub use wiring::{
     Health, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, Shown, TuiError, Wiring,
     WriteShown,

@@ -53,9 +53,14 @@ fn centre_line(frame: &Frame) -> String {
 /// The whole crossing before (0) and the present one so far (1); of a replay the whole one, which it is part of.
 fn material_point(app: &App) -> String {
     let point = app.point_now();
-    let before = app.trace.before().iter().map(|sample| (0.0, sample));
-    let now = app.trace.current().iter().map(|sample| (1.0, sample));
-    let now = now.filter(|_| app.replay.is_none());
+    let before = app.replay.trace.before().iter().map(|sample| (0.0, sample));
+    let now = app
+        .replay
+        .trace
+        .current()
+        .iter()
+        .map(|sample| (1.0, sample));
+    let now = now.filter(|_| app.replay.playing.is_none());
     let samples = before.chain(now).map(|(crossing, sample)| {
         vec![
             Some(crossing),

@@ -1,43 +1,42 @@
 //! The terminal itself: entered, left, and left again whatever happens. The only place that names crossterm.
 
-mod canvas;
-mod line;
-mod pace;
 mod show;
-mod typist;
 
 use std::cell::Cell;
-use std::io::{self, Write, stdout};
+use std::io::{self, BufWriter, Stdout, Write, stdout};
 use std::panic;
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crossterm::cursor::Show;
 use crossterm::event::{
     self, DisableMouseCapture, EnableMouseCapture, KeyCode, KeyEvent, KeyEventKind, KeyModifiers,
     MouseButton, MouseEvent, MouseEventKind,
 };
-use crossterm::execute;
 use crossterm::terminal::{
-    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode,
-    enable_raw_mode, size,
+    BeginSynchronizedUpdate, Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen,
+    LeaveAlternateScreen, disable_raw_mode, enable_raw_mode, size,
 };
-use ratatui::Terminal;
-use ratatui::layout::Size;
+use crossterm::{execute, queue};
+use ratatui::backend::CrosstermBackend;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect, Size};
+use ratatui::{Terminal, TerminalOptions, Viewport};
 
+use crate::tui::app::App;
 use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct, ScreenEvent};
-pub use line::TerminalLine;
-use pace::LinePace;
+use crate::tui::view;
 pub use show::explore;
 
 /// The terminal while the explorer has it; dropped, it is as it was.
 pub(super) struct Screen {
-    /// What is drawn on.
-    pub(super) terminal: Terminal<TerminalLine<io::Stdout>>,
+    terminal: Terminal<CrosstermBackend<BufWriter<Stdout>>>,
+    /// What it shows: nothing is written where nothing has changed.
+    shown: Buffer,
 }
 
 impl Screen {
@@ -46,16 +45,40 @@ impl Screen {
     /// # Errors
     /// When it cannot be switched.
     pub(super) fn enter() -> io::Result<Self> {
-        // Asked before the terminal is taken: what is asked for lines is not for screens.
-        let pace = LinePace::of(pace::baud(), Instant::now());
         take()?;
-        match on_line(pace) {
-            Ok(terminal) => Ok(Self { terminal }),
-            Err(error) => {
-                give_back();
-                Err(error)
-            }
+        let (terminal, shown) = blank().inspect_err(|_| give_back())?;
+        Ok(Self { terminal, shown })
+    }
+
+    /// The cells of the terminal as large as it is now.
+    ///
+    /// # Errors
+    /// When it does not say.
+    pub(super) fn area() -> io::Result<Rect> {
+        Ok(Rect::from((Position::ORIGIN, Size::from(size()?))))
+    }
+
+    /// Draws the screen, where anything of it has changed.
+    ///
+    /// # Errors
+    /// When the terminal cannot be written to.
+    pub(super) fn draw(&mut self, app: &App) -> io::Result<()> {
+        if Self::area()? != self.shown.area {
+            self.clear()?;
         }
+        // By the time it was cleared it may have yet another size.
+        let area = self.shown.area;
+        let mut next = Buffer::empty(area);
+        view::render(app, area, &mut next);
+        if next == self.shown {
+            return Ok(());
+        }
+        queue!(self.terminal.backend_mut(), BeginSynchronizedUpdate)?;
+        self.terminal
+            .draw(|frame| frame.buffer_mut().clone_from(&next))?;
+        execute!(self.terminal.backend_mut(), EndSynchronizedUpdate)?;
+        self.shown = next;
+        Ok(())
     }
 
     /// Hands the terminal to the shell and stops this process and its group until `fg`.
@@ -76,17 +99,25 @@ impl Screen {
     ///
     /// # Errors
     /// When it fails.
-    pub(super) fn clear(&mut self) -> io::Result<()> {
-        // Ratatui's own `clear` would ask where the cursor is, and not every line answers.
+    fn clear(&mut self) -> io::Result<()> {
         execute!(stdout(), Clear(ClearType::All))?;
-        self.terminal = on_line(self.terminal.backend().pace().clone())?;
+        (self.terminal, self.shown) = blank()?;
         Ok(())
     }
 }
 
-fn on_line(pace: LinePace) -> io::Result<Terminal<TerminalLine<io::Stdout>>> {
-    let size = Size::from(size()?);
-    Terminal::new(TerminalLine::at_pace(stdout(), size, pace))
+/// A terminal of which nothing is shown yet. Its size is fixed: when ratatui follows a new size it asks where the cursor is,
+/// and not every terminal answers.
+fn blank() -> io::Result<(Terminal<CrosstermBackend<BufWriter<Stdout>>>, Buffer)> {
+    /// Bytes of a large screen in true colour.
+    const ONE_SCREEN: usize = 1 << 18;
+    let area = Screen::area()?;
+    let out = BufWriter::with_capacity(ONE_SCREEN, stdout());
+    let options = TerminalOptions {
+        viewport: Viewport::Fixed(area),
+    };
+    let terminal = Terminal::with_options(CrosstermBackend::new(out), options)?;
+    Ok((terminal, Buffer::empty(area)))
 }
 
 impl Drop for Screen {
@@ -155,7 +186,7 @@ impl Panics {
             } else if Arc::strong_count(&kept.said) > 1 {
                 let name = thread::current().name().map(str::to_owned);
                 kept.lock().push(Panic {
-                    text: told(info),
+                    text: in_one_line(info),
                     broke_the_run: !name.is_some_and(|name| BESIDE.contains(&name.as_str())),
                 });
             } else {
@@ -194,7 +225,7 @@ impl Panics {
 }
 
 /// A panic in one line.
-fn told(info: &panic::PanicHookInfo<'_>) -> String {
+fn in_one_line(info: &panic::PanicHookInfo<'_>) -> String {
     let what = info.payload_as_str().unwrap_or("no message");
     match info.location() {
         Some(place) => format!(
@@ -292,7 +323,7 @@ fn chord(event: &KeyEvent) -> Option<Chord> {
     let is_held = |modifier| event.modifiers.contains(modifier);
     Some(Chord {
         key,
-        held: Modifiers {
+        modifiers: Modifiers {
             shift: is_held(KeyModifiers::SHIFT),
             control: is_held(KeyModifiers::CONTROL),
             alt: is_held(KeyModifiers::ALT),

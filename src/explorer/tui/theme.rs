@@ -19,8 +19,6 @@ pub enum ColorDepth {
     True,
     /// 256 colours.
     Indexed,
-    /// The 16 colours of the terminal's own palette.
-    Basic,
     /// None: weight and shape only.
     Mono,
 }
@@ -81,34 +79,27 @@ impl Capabilities {
         } else {
             Glyphs::Unicode
         };
+        let (colors, program) = (filled("COLORTERM"), filled("TERM_PROGRAM"));
         let depth = if filled("NO_COLOR").is_some() || term == "dumb" {
             ColorDepth::Mono
         } else {
-            depth_of(
-                &term,
-                filled("COLORTERM").as_deref(),
-                filled("TERM_PROGRAM").as_deref(),
-            )
+            depth_of(&term, colors.as_deref(), program.as_deref())
         };
         Self { depth, glyphs }
     }
 }
 
+/// 24 bits where the terminal says so or is known for it; 256 colours are known to all others, which bring them to their own.
 fn depth_of(term: &str, colorterm: Option<&str>, program: Option<&str>) -> ColorDepth {
-    let declared = matches!(colorterm, Some("truecolor" | "24bit"));
-    let known = ["kitty", "alacritty", "ghostty", "wezterm", "foot", "direct"]
-        .iter()
-        .any(|name| term.contains(name));
-    let hosted = matches!(
-        program,
-        Some("iTerm.app" | "WezTerm" | "ghostty" | "vscode")
-    );
-    if declared || known || hosted {
+    const NAMES: [&str; 6] = ["kitty", "alacritty", "ghostty", "wezterm", "foot", "direct"];
+    const PROGRAMS: [&str; 4] = ["iTerm.app", "WezTerm", "ghostty", "vscode"];
+    let is_declared = matches!(colorterm, Some("truecolor" | "24bit"));
+    let is_known = NAMES.iter().any(|name| term.contains(name));
+    let is_hosted = program.is_some_and(|program| PROGRAMS.contains(&program));
+    if is_declared || is_known || is_hosted {
         ColorDepth::True
-    } else if term.contains("256color") {
-        ColorDepth::Indexed
     } else {
-        ColorDepth::Basic
+        ColorDepth::Indexed
     }
 }
 
@@ -198,10 +189,7 @@ impl Theme {
     /// would not be read.
     pub fn page(self) -> Option<Style> {
         let light = self.contrast == Contrast::Light && !self.is_mono();
-        light.then(|| match self.capabilities.depth {
-            ColorDepth::Basic => Style::new().bg(Color::White).fg(Color::Black),
-            _ => Style::new().bg(self.rgb(PAPER)).fg(self.rgb(INK)),
-        })
+        light.then(|| Style::new().bg(self.rgb(PAPER)).fg(self.rgb(INK)))
     }
 
     /// `unicode`, or `ascii` where only that may be drawn.
@@ -272,16 +260,13 @@ impl Theme {
         match self.capabilities.depth {
             ColorDepth::True => Color::Rgb(r, g, b),
             ColorDepth::Indexed => Color::Indexed(nearest_index([r, g, b])),
-            ColorDepth::Basic | ColorDepth::Mono => Color::Reset,
+            ColorDepth::Mono => Color::Reset,
         }
     }
 
     fn role_color(self, role: Role) -> Option<Color> {
-        let look = role_look(role);
         match self.capabilities.depth {
             ColorDepth::Mono => None,
-            ColorDepth::Basic if self.contrast == Contrast::Light => Some(look.basic_on_white),
-            ColorDepth::Basic => Some(look.basic),
             ColorDepth::True | ColorDepth::Indexed => {
                 let rgb = match (role, self.contrast) {
                     (Role::Text | Role::Strong | Role::Title, Contrast::Light) => INK,
@@ -294,8 +279,8 @@ impl Theme {
                         return Some(Color::Reset);
                     }
                     // The same hue for a light background.
-                    (_, Contrast::Light) => look.rgb.map(|c| (f32::from(c) * 0.55) as u8),
-                    _ => look.rgb,
+                    (_, Contrast::Light) => okabe_ito(role).map(|c| (f32::from(c) * 0.55) as u8),
+                    _ => okabe_ito(role),
                 };
                 Some(self.rgb(rgb))
             }
@@ -347,35 +332,18 @@ fn weight(role: Role) -> Modifier {
     }
 }
 
-/// Colours of a role.
-struct RoleLook {
-    /// Of Okabe & Ito, made lighter for a dark background.
-    rgb: [u8; 3],
-    /// Of the sixteen.
-    basic: Color,
-    /// The dark ones of the sixteen.
-    basic_on_white: Color,
-}
-
-fn role_look(role: Role) -> RoleLook {
-    let (rgb, basic, basic_on_white) = match role {
-        Role::Text | Role::Strong | Role::Title => ([222, 226, 235], Color::Reset, Color::Black),
-        Role::Dim | Role::Border => ([222, 226, 235], Color::DarkGray, Color::DarkGray),
-        Role::Hertz => ([122, 128, 142], Color::DarkGray, Color::DarkGray),
-        Role::Key | Role::Chosen | Role::Warn | Role::Body1 => {
-            ([240, 228, 66], Color::Yellow, Color::Blue)
-        }
-        Role::Cycles => ([230, 170, 20], Color::Yellow, Color::Blue),
-        Role::Body2 | Role::Shear => ([214, 140, 184], Color::Magenta, Color::Magenta),
-        Role::Pressure | Role::Peaks => ([232, 106, 30], Color::LightRed, Color::Red),
-        Role::Film | Role::Formula => ([86, 180, 233], Color::Cyan, Color::Cyan),
-        Role::Traction | Role::Good => ([20, 176, 130], Color::Green, Color::Green),
-        Role::Bad => ([255, 82, 82], Color::Red, Color::Red),
-    };
-    RoleLook {
-        rgb,
-        basic,
-        basic_on_white,
+/// Of Okabe & Ito, made lighter for a dark background.
+fn okabe_ito(role: Role) -> [u8; 3] {
+    match role {
+        Role::Text | Role::Strong | Role::Title | Role::Dim | Role::Border => [222, 226, 235],
+        Role::Key | Role::Chosen | Role::Warn | Role::Body1 => [240, 228, 66],
+        Role::Body2 | Role::Shear => [214, 140, 184],
+        Role::Pressure | Role::Peaks => [232, 106, 30],
+        Role::Film | Role::Formula => [86, 180, 233],
+        Role::Hertz => [122, 128, 142],
+        Role::Cycles => [230, 170, 20],
+        Role::Traction | Role::Good => [20, 176, 130],
+        Role::Bad => [255, 82, 82],
     }
 }
 
@@ -400,7 +368,7 @@ mod tests {
             from(&[("TERM", "tmux-256color")]).depth,
             ColorDepth::Indexed
         );
-        assert_eq!(from(&[("TERM", "linux")]).depth, ColorDepth::Basic);
+        assert_eq!(from(&[("TERM", "linux")]).depth, ColorDepth::Indexed);
         let none = from(&[("TERM", "xterm-256color"), ("NO_COLOR", "1")]);
         assert_eq!(none.depth, ColorDepth::Mono);
         // An empty NO_COLOR counts as unset (no-color.org).

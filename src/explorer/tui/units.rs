@@ -1,5 +1,6 @@
 //! Three systems of units for people; how a number is written is [`asperity_engine::math::number`].
 
+use crate::tui::kinds::shifted;
 use asperity_engine::math::number::{GPA, MPA, UM};
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::{Dimension, Frame, Quantity};
@@ -30,11 +31,7 @@ impl Units {
     /// The next system.
     #[must_use]
     pub fn next(self) -> Self {
-        match self {
-            Self::Gpa => Self::Mpa,
-            Self::Mpa => Self::Shop,
-            Self::Shop => Self::Gpa,
-        }
+        shifted(&[Self::Gpa, Self::Mpa, Self::Shop], self, 1)
     }
 
     /// Unit of what is measured.

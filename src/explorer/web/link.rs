@@ -119,10 +119,14 @@ pub(super) fn on_nodes(scene: &Scene, nodes: usize) -> Result<(Scene, Plan), Str
 /// The link that shows what is shown now: the scene's name, nodes, its keys in the link that opened it, and the knobs that
 /// were turned.
 pub(super) fn written(app: &App, nodes: usize, keys: &str) -> String {
-    let turned = app.dials.iter().filter(|dial| dial.target != dial.home);
+    let turned = app
+        .choice
+        .dials
+        .iter()
+        .filter(|dial| dial.target != dial.home);
     let knobs = turned.map(|dial| format!("&{}={}", short(dial.knob), dial.target));
     let knobs: String = knobs.collect();
-    format!("scene={}&nodes={nodes}{keys}{knobs}", app.setup.name)
+    format!("scene={}&nodes={nodes}{keys}{knobs}", app.run.setup.name)
 }
 
 /// A value in an address: what is no letter, digit or plain sign as `%` and its bytes.

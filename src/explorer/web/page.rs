@@ -16,7 +16,7 @@ use super::curves::written as written_curves;
 use super::link::{NODES, PageLink, on_nodes, written};
 use super::rows::KeptRows;
 use crate::tui::event::ScreenEvent;
-use crate::tui::pixels::Pixels;
+use crate::tui::pixels::Medium;
 use crate::tui::theme::{Capabilities, ColorDepth, Glyphs, Theme};
 use crate::tui::{Control, Explorer, Health, RunStatus, Setup, Shown, Wiring, view};
 use asperity_engine::math::number::sig;
@@ -83,7 +83,7 @@ impl WebPage {
         });
         theme.contrast = link.contrast;
         let mut explorer = Explorer::new(wiring, theme);
-        explorer.app.set_pixels(Pixels::Page);
+        explorer.app.set_medium(Medium::Page);
         // Nothing comes of it that a page would have to do.
         let _ = explorer.teach_asked();
         Ok(Self {

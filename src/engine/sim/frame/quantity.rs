@@ -2,7 +2,7 @@
 //!
 //! Names are looked up where they are compiled: `const { named("p_max_pa") }` of a name that is not there is no program.
 
-use super::{CATALOGUE, Frame, Metrics};
+use super::{Frame, Metrics};
 use crate::math::number::Unit;
 use crate::scene::ContactKind;
 use crate::sim::LifeEstimate;
@@ -273,4 +273,140 @@ const fn is_same(one: &str, two: &str) -> bool {
         k += 1;
     }
     true
+}
+
+/// Every scalar of a step, in the order of a table's columns: the one place where it gets its name and symbol, what it
+/// measures, what it is in words, where it is read, and how a summary sums it up. Tables, summaries, recordings, exported
+/// fields, reports and the explorer look it up here. A new one comes last and is shown `by_itself`.
+#[rustfmt::skip]
+pub const CATALOGUE: &[Quantity] = {
+    use Dimension::{Film, Height, Length, Load, Plain, Pressure, Share, Speed, Time, Volume};
+    use Over::{Greatest, Least, Mean};
+    use Source::{Frame as F, Life as L, Metrics as M};
+    use Quantity as Q;
+    &[
+        Q::new(["step", "step"], Plain, "time step of the passage", F(|f| (f.step as f64).into())),
+        Q::new(["time_s", "t"], Time, "time since the start of the passage", F(|f| f.time_s.into())),
+        Q::new(["passages", "passages"], Plain, "lengths of 4 a travelled at U", F(|f| f.passages.into())),
+        Q::new(["stage", "stage"], Plain, "part of the run", F(|f| Reading::Word(f.stage.name()))),
+        Q::new(["a_m", "a (along x)"], Length, "Hertz half-width along x at the load of now", F(|f| f.a_m.into())),
+        Q::new(["b_m", "b (across)"], Length, "Hertz half-width across", F(|f| f.b_m.into())),
+        Q::new(["p_hertz_pa", "p_Hertz"], Pressure, "greatest Hertz pressure at the load of now", F(|f| f.p_hertz_pa.into())),
+        Q::new(["converged", "converged (1/0)"], Plain, "whether the step converged", M(|m| f64::from(u8::from(m.converged)).into())),
+        Q::new(["residual", "residual"], Plain, "relative change of pressure in the last iteration", M(|m| m.residual.into())),
+        Q::new(["newton_iterations", "Newton iterations"], Plain, "Newton iterations of the step", M(|m| f64::from(m.newton_iterations).into())),
+        Q::new(["linear_iterations", "linear iterations"], Plain, "Krylov iterations of the step", M(|m| f64::from(m.linear_iterations).into())),
+        Q::new(["retries", "retries"], Plain, "times that the step was halved", M(|m| f64::from(m.retries).into())),
+        Q::new(["slide_roll", "S"], Plain, "slide-to-roll ratio (U2 - U1)/U", M(|m| m.slide_roll.into())),
+        Q::new(["slide_roll_target", "S target"], Plain, "where S is going", M(|m| m.slide_roll_target.into())),
+        Q::new(["entrainment_m_s", "U"], Speed, "entrainment speed", M(|m| m.entrainment_m_s.into())),
+        Q::new(["load_n", "load"], Load, "load asked for", M(|m| m.load_n.into())).over(&[(Mean, "load_n")]),
+        Q::new(["load_target_n", "load target"], Load, "where the load is going", M(|m| m.load_target_n.into())),
+        Q::new(["amplitude_1_m", "A1"], Height, "amplitude of body 1's roughness", M(|m| m.amplitude_1_m.into())),
+        Q::new(["amplitude_2_m", "A2"], Height, "amplitude of body 2's roughness", M(|m| m.amplitude_2_m.into())),
+        Q::new(["p_max_pa", "p_max"], Pressure, "greatest pressure", M(|m| m.p_max_pa.into())).over(&[(Mean, "p_max_pa"), (Greatest, "p_max_greatest_pa")]),
+        Q::new(["h_central_m", "h_central"], Film, "film at the origin", M(|m| m.h_central_m.into())).over(&[(Mean, "h_central_m")]),
+        Q::new(["h_min_m", "h_min"], Film, "least film under pressure", M(|m| m.h_min_m.into())).over(&[(Mean, "h_min_m"), (Least, "h_min_least_m")]),
+        Q::new(["h_mean_m", "h_mean"], Film, "mean film of the central part", M(|m| m.h_mean_m.into())),
+        Q::new(["lambda_ratio", "λ ratio"], Plain, "smooth central film by formula over composite roughness", M(|m| m.lambda_ratio.into())),
+        Q::new(["film_to_roughness", "h_mean/Rq"], Plain, "mean film of the central part over composite roughness", M(|m| m.film_to_roughness.into())),
+        Q::new(["contact_ratio", "area in contact"], Share, "part of the Hertz ellipse in contact", M(|m| m.contact_ratio.into())).over(&[(Mean, "contact_ratio")]),
+        Q::new(["contact_load_ratio", "load on contacts"], Share, "part of the load that contacts carry", M(|m| m.contact_load_ratio.into())).over(&[(Mean, "contact_load_ratio")]),
+        Q::new(["regime", "regime"], Plain, "lubrication regime", M(|m| Reading::Word(m.regime.name()))),
+        Q::new(["load_error", "load error"], Plain, "|carried - asked|/asked", M(|m| m.load_error.into())).over(&[(Greatest, "load_error")]),
+        Q::new(["film_error", "film error"], Plain, "residual of the film equation over the mass under pressure", M(|m| m.film_error.into())),
+        Q::new(["mass_error", "mass error"], Plain, "the part of it that no step takes over", M(|m| m.mass_error.into())).over(&[(Greatest, "mass_error")]),
+        Q::new(["overlap_m", "overlap"], Film, "deepest overlap of a step that did not converge", M(|m| m.overlap_m.into())),
+        Q::new(["friction_coefficient", "friction coefficient"], Plain, "friction force over load", M(|m| m.friction_coefficient.into())).over(&[(Mean, "friction_coefficient")]),
+        Q::new(["sigma_eff_max_pa", "σ_eff max"], Pressure, "greatest effective stress", M(|m| m.sigma_eff_max_pa.into())),
+        Q::new(["sigma_eff_max_depth_m", "z of σ_eff max"], Length, "its depth", M(|m| m.sigma_eff_max_depth_m.into())),
+        Q::new(["sigma_eff_max_x_m", "x of σ_eff max"], Length, "its place along x", M(|m| m.sigma_eff_max_x_m.into())),
+        Q::new(["n_body_1", "n body 1, formula"], Plain, "contacts per loading cycle of body 1 by formula", M(|m| m.n_body_1.into())),
+        Q::new(["n_body_2", "n body 2, formula"], Plain, "contacts per loading cycle of body 2 by formula", M(|m| m.n_body_2.into())),
+        Q::new(["n_counted_body_1", "n body 1, counted"], Plain, "cycles of body 1 counted by rainflow", M(|m| m.n_counted_body_1.into())),
+        Q::new(["n_counted_body_2", "n body 2, counted"], Plain, "cycles of body 2 counted by rainflow", M(|m| m.n_counted_body_2.into())),
+        Q::new(["i_ref", "I of the reference"], Plain, "volume integral of the smooth, frictionless contact", L(|l| l.i_ref.into())),
+        Q::new(["i_mean", "I"], Plain, "volume integral, mean over the phases", L(|l| l.i_mean.into())),
+        Q::new(["phases", "phases"], Plain, "phases in that mean", L(|l| f64::from(l.phases).into())),
+        Q::new(["cycle_factor", "cycle factor"], Plain, "n_ref/n", L(|l| l.cycle_factor.into())),
+        Q::new(["stress_factor", "stress factor"], Plain, "(I_ref/I)^(1/e)", L(|l| l.stress_factor.into())),
+        Q::new(["peak_factor", "peak factor"], Plain, "part of the stress factor due to pressure peaks", L(|l| l.peak_factor.into())),
+        Q::new(["traction_factor", "traction factor"], Plain, "part of the stress factor due to traction", L(|l| l.traction_factor.into())),
+        Q::new(["load_factor", "load factor"], Plain, "what the load and speed of now cost on the smooth contact", L(|l| l.load_factor.into())),
+        Q::new(["life_relative", "relative life"], Plain, "life over that of the smooth, frictionless contact at S = 0", L(|l| l.life_relative.into())),
+        Q::new(["life_relative_low", "life, low"], Plain, "lower end of its band", L(|l| l.life_relative_low.into())),
+        Q::new(["life_relative_high", "life, high"], Plain, "upper end of its band", L(|l| l.life_relative_high.into())),
+        Q::new(["settled", "settled (1/0)"], Plain, "whether the average has stopped moving", L(|l| f64::from(u8::from(l.settled)).into())),
+        Q::new(["point_x_m", "x"], Length, "where the followed point is", F(|f| f.material_point.map(|point| point.x_m).into())),
+        Q::new(["point_effective_pa", "effective stress"], Pressure, "effective stress at the followed point", F(|f| f.material_point.map(|point| point.effective_pa).into())),
+        Q::new(["point_cycles_counted", "peaks so far in this crossing"], Plain, "peaks of the pressure on it in this crossing", F(|f| f.material_point.map(|point| point.cycles_counted).into())),
+        Q::new(["yielded_body_1_m3", "body 1 has yielded"], Volume, "what body 1 has yielded since the roughness came up", M(|m| m.yielded_m3.map(|both| both[0]).into())),
+        Q::new(["yielded_body_2_m3", "body 2 has yielded"], Volume, "what body 2 has yielded since the roughness came up", M(|m| m.yielded_m3.map(|both| both[1]).into())),
+        Q::new(["traction_max_pa", "τ max"], Pressure, "greatest shear stress on the surfaces", M(|m| m.traction_max_pa.into())).over(&[(Mean, "traction_max_pa"), (Greatest, "traction_max_greatest_pa")]).by_itself(),
+        Q::new(["load_centre_x_m", "x of the load"], Length, "where along x the load acts: its moment resists rolling", M(|m| m.load_centre_x_m.into())),
+    ]
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is no scalar, or is told in parts.
+    const OTHERS: [&str; 6] = ["asked", "yielded_m3", "life", "repeat", "errors", "detail"];
+
+    #[test]
+    fn every_scalar_is_in_the_catalogue_once() {
+        let metrics = serde_json::to_value(Metrics::default()).expect("plain data");
+        let life = serde_json::to_value(LifeEstimate::default()).expect("plain data");
+        let fields = [metrics, life];
+        let fields = fields.iter().filter_map(|value| value.as_object());
+        let names: Vec<&str> = CATALOGUE.iter().map(|quantity| quantity.name).collect();
+        let mut found = 0;
+        for field in fields.flat_map(serde_json::Map::keys) {
+            let times = names.iter().filter(|name| *name == field).count();
+            assert_eq!(
+                times,
+                usize::from(!OTHERS.contains(&field.as_str())),
+                "{field}"
+            );
+            found += times;
+        }
+        assert!(found > 40, "{found}");
+    }
+
+    #[test]
+    fn names_and_keys_have_one_meaning() {
+        let quantities = CATALOGUE.iter();
+        let mut keys: Vec<&str> = quantities
+            .clone()
+            .flat_map(|q| q.over)
+            .map(|(_, key)| *key)
+            .collect();
+        let mut names: Vec<&str> = quantities.map(|quantity| quantity.name).collect();
+        for list in [&mut keys, &mut names] {
+            let all = list.len();
+            list.sort_unstable();
+            list.dedup();
+            assert_eq!(list.len(), all);
+        }
+        assert_eq!(summed().count(), SUMMED);
+    }
+
+    #[test]
+    fn what_is_not_known_is_no_number() {
+        let mut frame = Frame::default();
+        let life = const { named("life_relative") };
+        assert_eq!(life.number(&frame), None);
+        frame.metrics.life = Some(LifeEstimate {
+            life_relative: 0.5,
+            ..LifeEstimate::default()
+        });
+        assert_eq!(life.number(&frame), Some(0.5));
+        assert_eq!(
+            const { named("stage") }.read(&frame),
+            Reading::Word("start_up")
+        );
+        let film = const { named("h_central_m") };
+        assert_eq!(film.label(ContactKind::Point), "h_central, µm");
+    }
 }

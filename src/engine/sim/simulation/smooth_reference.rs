@@ -50,7 +50,7 @@ fn begin_smooth(plan: &SimPlan, state: &State, work: &mut Work) -> Smooth {
     drive.jump(plan.scaling.load_knob(), at.load);
     drive.jump(Knob::EntrainmentMS, at.speed_m_s);
     let mut smooth = work.take_smooth(plan, nodes);
-    let hertz = || smooth.solver.hertz_of_size(&plan.shape, (size, central));
+    let hertz = || smooth.solver.hertz_of_size(&plan.shape, size, central);
     let contact = work.pool.install(hertz);
     work.smooth = Some(smooth);
     Smooth {

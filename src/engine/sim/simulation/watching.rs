@@ -95,11 +95,11 @@ pub(super) fn look_for_orbit(
     }
     if state.motion.is_flushed() {
         let contact = &state.contact;
-        let fields = (&contact.pressure[..], &contact.film[..]);
         state.orbit.push(
             state.distance,
             state.distance - before,
-            fields,
+            &contact.pressure,
+            &contact.film,
             &state.metrics,
         );
     }
@@ -165,7 +165,8 @@ pub(super) fn publish(
     let n = contacts(
         &plan.decided,
         a_m,
-        (m.entrainment_m_s, m.slide_roll),
+        m.entrainment_m_s,
+        m.slide_roll,
         [m.amplitude_1_m, m.amplitude_2_m],
     );
     (m.n_body_1, m.n_body_2) = (n[0], n[1]);
@@ -196,12 +197,12 @@ pub(super) fn see_again(plan: &SimPlan, state: &State, work: &mut Work) -> Measu
     if !matches!(state.phase, Phase::Smooth { .. }) {
         solver.yield_at(plan.hardness);
     }
-    let places = (&state.drive, &state.motion);
     place_surfaces(
         solver,
         roughness,
         &plan.scaling,
-        places,
+        &state.drive,
+        &state.motion,
         state.yielded.as_ref(),
     );
     slice_again(plan, state, work)

@@ -81,11 +81,11 @@ impl Solver {
 
     /// A Hertz contact with film `h_central`.
     pub fn hertz(&mut self, shape: &Shape, h_central: f64) -> ContactState {
-        self.hertz_of_size(shape, (1.0, h_central))
+        self.hertz_of_size(shape, 1.0, h_central)
     }
 
     /// The same where half-widths and pressure are `size` times the units.
-    pub fn hertz_of_size(&mut self, shape: &Shape, (size, h_central): (f64, f64)) -> ContactState {
+    pub fn hertz_of_size(&mut self, shape: &Shape, size: f64, h_central: f64) -> ContactState {
         let grid = &self.grid;
         let mut pressure = vec![0.0; grid.len()];
         for j in grid.interior_rows() {
@@ -145,7 +145,7 @@ impl Solver {
         guess: Guess,
     ) -> NewtonReport {
         let past = state.history.past(self.newton.order, nodes);
-        self.attempt_after(state, conditions, (nodes, past), guess)
+        self.attempt_after(state, conditions, nodes, past, guess)
     }
 
     /// A last try of a step of `nodes` nodes, with everything on the safe side: backward Euler, whose C* is
@@ -162,7 +162,7 @@ impl Solver {
         let mut patient = *conditions;
         patient.tolerance.max_iterations *= 3;
         let order = std::mem::replace(&mut self.newton.order, Order::Second);
-        let report = self.attempt_after(state, &patient, (nodes, Past::One), Guess::Last);
+        let report = self.attempt_after(state, &patient, nodes, Past::One, Guess::Last);
         self.newton.order = order;
         self.set_symbols(2.0 / 3.0 * self.usual_nodes * dx);
         report
@@ -173,7 +173,8 @@ impl Solver {
         &mut self,
         state: &ContactState,
         conditions: &Conditions,
-        (nodes, past): (f64, Past),
+        nodes: f64,
+        past: Past,
         guess: Guess,
     ) -> NewtonReport {
         let history = &state.history;
@@ -185,7 +186,7 @@ impl Solver {
         if self.flow == Flow::Dry {
             return self.attempt_dry(conditions);
         }
-        history.convect(&self.grid, (nodes, past), &mut self.c_star, &mut self.s);
+        history.convect(&self.grid, nodes, past, &mut self.c_star, &mut self.s);
         self.least_film = conditions.tolerance.least_film;
         let problem = Problem {
             grid: &self.grid,
@@ -229,8 +230,8 @@ impl Solver {
             return None;
         }
         self.gather_mass();
-        let fields = (&self.mass[..], &self.trial.pressure[..]);
-        state.history.path_error(&self.grid, fields, nodes)
+        let (mass, p) = (&self.mass, &self.trial.pressure);
+        state.history.path_error(&self.grid, mass, p, nodes)
     }
 
     /// Where the surfaces of the last attempt overlap beyond the tolerance at an edge of the domain, which has no

@@ -157,18 +157,72 @@ fn fill(run: &Run, w: f64, out: &mut [f64]) {
 }
 
 /// What the flow lacks through the faces with the eastern neighbour and with the row above.
-pub(super) struct Lacking {
+pub struct Lacking {
     east: Vec<f64>,
     north: Vec<f64>,
 }
 
 impl Lacking {
     /// Room for `n` nodes.
-    pub(super) fn new(n: usize) -> Self {
+    pub fn new(n: usize) -> Self {
         Self {
             east: vec![0.0; n],
             north: vec![0.0; n],
         }
+    }
+
+    /// Adds to `c_star` what the flow of second order lacks, and takes it off F. Properties, faces and F are those of the
+    /// last call of [`Reynolds::residual`], at this guess.
+    pub fn correct(
+        &mut self,
+        reynolds: &mut Reynolds,
+        grid: &Grid,
+        at: &Guessed,
+        c_star: &mut [f64],
+    ) {
+        let nx = grid.nx;
+        let is_line = grid.symmetry == Symmetry::Line;
+        let flow = &*reynolds;
+        let faces = self
+            .east
+            .par_chunks_mut(nx)
+            .zip(self.north.par_chunks_mut(nx));
+        faces
+            .enumerate()
+            .with_min_len(ROWS)
+            .for_each(|(j, (east, north))| {
+                flow.lacking_along(grid, at, j, east);
+                if !is_line {
+                    flow.lacking_across(grid, at, j, north);
+                }
+            });
+        let (wx, wy) = grid.flow_weights();
+        let interior = grid.interior_rows();
+        let rows = reynolds
+            .residual
+            .par_chunks_mut(nx)
+            .zip(c_star.par_chunks_mut(nx));
+        rows.enumerate()
+            .with_min_len(ROWS)
+            .filter(|(j, _)| interior.contains(j))
+            .for_each(|(j, (f, c_star))| {
+                let east = &self.east[j * nx..][..nx];
+                let north = &self.north[j * nx..][..nx];
+                for i in 1..nx - 1 {
+                    let mut comes = wx * (east[i] - east[i - 1]);
+                    if !is_line {
+                        let south = match (j, grid.symmetry) {
+                            (0, Symmetry::MirrorY) => -north[i],
+                            (0, Symmetry::General | Symmetry::Line) => 0.0,
+                            (1.., _) => self.north[(j - 1) * nx + i],
+                        };
+                        comes += wy * (north[i] - south);
+                    }
+                    let comes = at.s[j * nx + i] * comes;
+                    c_star[i] += comes;
+                    f[i] -= comes;
+                }
+            });
     }
 }
 
@@ -219,56 +273,6 @@ impl Reynolds {
         );
         let run = self.run(at, FlowDirection::Across, (nodes, nx), faces);
         fill(&run, grid.flow_weights().1, out);
-    }
-
-    /// Adds to `c_star` what the flow of second order lacks, and takes it off F. Properties, faces and F are those of the
-    /// last call of [`Reynolds::residual`], at this guess.
-    pub fn correct(&mut self, grid: &Grid, at: &Guessed, c_star: &mut [f64]) {
-        let nx = grid.nx;
-        let is_line = grid.symmetry == Symmetry::Line;
-        let mut lacking = std::mem::replace(&mut self.lacking, Lacking::new(0));
-        let this = &*self;
-        let faces = lacking
-            .east
-            .par_chunks_mut(nx)
-            .zip(lacking.north.par_chunks_mut(nx));
-        faces
-            .enumerate()
-            .with_min_len(ROWS)
-            .for_each(|(j, (east, north))| {
-                this.lacking_along(grid, at, j, east);
-                if !is_line {
-                    this.lacking_across(grid, at, j, north);
-                }
-            });
-        let (wx, wy) = grid.flow_weights();
-        let interior = grid.interior_rows();
-        let rows = self
-            .residual
-            .par_chunks_mut(nx)
-            .zip(c_star.par_chunks_mut(nx));
-        rows.enumerate()
-            .with_min_len(ROWS)
-            .filter(|(j, _)| interior.contains(j))
-            .for_each(|(j, (f, c_star))| {
-                let east = &lacking.east[j * nx..][..nx];
-                let north = &lacking.north[j * nx..][..nx];
-                for i in 1..nx - 1 {
-                    let mut comes = wx * (east[i] - east[i - 1]);
-                    if !is_line {
-                        let south = match (j, grid.symmetry) {
-                            (0, Symmetry::MirrorY) => -north[i],
-                            (0, _) => 0.0,
-                            _ => lacking.north[(j - 1) * nx + i],
-                        };
-                        comes += wy * (north[i] - south);
-                    }
-                    let comes = at.s[j * nx + i] * comes;
-                    c_star[i] += comes;
-                    f[i] -= comes;
-                }
-            });
-        self.lacking = lacking;
     }
 }
 
@@ -323,7 +327,7 @@ mod tests {
         let flow = |reynolds: &Reynolds, c: &[f64]| h[node] - c[node] - reynolds.residual[node];
         let second = flow(&reynolds, &c_star);
         let mut corrected = c_star.clone();
-        reynolds.correct(&grid, &at, &mut corrected);
+        Lacking::new(len).correct(&mut reynolds, &grid, &at, &mut corrected);
         let high = second + corrected[node] - c_star[node];
         assert!((h[node] - c_star[node] - reynolds.residual[node] - high).abs() < 1e-9);
         let come = grid.integrate(|k| corrected[k] - c_star[k]);

@@ -14,8 +14,8 @@
 //!
 //! Part of `stress/mod.rs`: its responses, added and subtracted.
 
-use super::engine::load::{Half, Spectrum};
 use super::layer::{Layer, LowRow, Waves};
+use super::load::{Half, Spectrum};
 use super::window::LOW;
 use crate::math::lane_fft::Lanes;
 use crate::math::lanes::{LANES, V};

@@ -2,15 +2,14 @@
 //!
 //! Part of `stress/mod.rs`.
 
-pub(super) mod load;
 mod plane;
 mod slice;
 mod volume;
 
-use self::load::{LoadScratch, Spectrum};
 use self::slice::SliceScratch;
 use self::volume::Worker;
 use super::layer::{Layer, Waves, layers};
+use super::load::{LoadScratch, Spectrum, SurfaceLoad};
 use super::spec::{Purpose, StressError, StressSpec};
 use super::sums::VolumeSums;
 use crate::math::lane_fft::{LaneFft, Lanes};
@@ -61,6 +60,23 @@ impl StressEngine {
             layers,
             plans,
         })
+    }
+
+    /// Takes the surface: pressure `p` and, where there is friction, traction `qx` on body 1 along +x, both
+    /// in p_h, `[j·nx + i]`, `ny` rows (see [`Symmetry`]). The outermost nodes are the domain's edge, where
+    /// the pressure is zero.
+    ///
+    /// # Panics
+    /// When a field has not `nx · ny` values.
+    pub fn load(&mut self, p: &[f32], qx: Option<&[f32]>) {
+        SurfaceLoad {
+            spec: &self.spec,
+            waves: &self.waves,
+            plans: &self.plans,
+            work: &mut self.load,
+            spectrum: &mut self.spectrum,
+        }
+        .load(p, qx);
     }
 
     /// What was asked for.

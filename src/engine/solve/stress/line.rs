@@ -179,16 +179,17 @@ impl LineStress {
             let same = match (loading, self.loaded) {
                 (Loading::Full(body), LoadedLine::Pressure) => Some(Loading::Normal(body)),
                 (Loading::Normal(BodyId::Two), _) if alike => Some(Loading::Normal(BodyId::One)),
-                _ if bodies.contains(&loading.body()) => None,
-                _ => Some(Loading::Normal(BodyId::One)),
-            };
-            match same {
-                Some(same) if same != loading => self.sums.copy(same, loading),
-                _ => {
-                    for k in 0..self.layers.len() {
-                        self.layer_sums(k, loading, laws);
-                    }
+                (Loading::Normal(body), _)
+                | (Loading::Full(body), LoadedLine::PressureAndTraction) => {
+                    (!bodies.contains(&body)).then_some(Loading::Normal(BodyId::One))
                 }
+            };
+            if let Some(same) = same.filter(|same| *same != loading) {
+                self.sums.copy(same, loading);
+                continue;
+            }
+            for k in 0..self.layers.len() {
+                self.layer_sums(k, loading, laws);
             }
         }
         &self.sums

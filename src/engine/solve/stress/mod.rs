@@ -35,6 +35,7 @@ mod depth;
 mod engine;
 mod layer;
 mod line;
+mod load;
 mod measure;
 mod peak;
 mod rows;

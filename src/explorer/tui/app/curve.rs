@@ -5,7 +5,9 @@
 //! points that agree with the knobs in all else, so that a knob that is turned empties it at once, and fills it
 //! again when it is turned back.
 
-use crate::tui::app::{App, CurveKind, Effect};
+use super::data::Effect;
+use super::state::App;
+use crate::tui::kinds::CurveKind;
 use asperity_engine::sim::{Knob, Metrics};
 use asperity_session::sweep::{Along, CurveOrder, CurvePoint, Found};
 
@@ -19,21 +21,6 @@ const SPEEDS: i32 = 4;
 const SAME_SPEED: f64 = 0.05;
 /// Points kept.
 const KEPT: usize = 128;
-
-/// Mean friction of the frames since the life has settled: within a period it comes and goes.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct MeanFriction {
-    sum: f64,
-    frames: f64,
-}
-
-impl MeanFriction {
-    pub(super) fn add(&mut self, friction: f64) -> f64 {
-        self.sum += friction;
-        self.frames += 1.0;
-        self.sum / self.frames
-    }
-}
 
 /// Where a frame was computed.
 pub(super) fn conditions(metrics: &Metrics) -> CurvePoint {
@@ -71,7 +58,7 @@ impl App {
     /// What was simulated along one line through the knobs' targets.
     pub fn simulated(&self, along: Along) -> impl Iterator<Item = &Found> {
         let aim = self.aim();
-        self.simulated.iter().filter(move |found| {
+        self.lives.simulated.iter().filter(move |found| {
             let on_the_line = match along {
                 Along::SlideRoll => close(found.at.entrainment_m_s, aim.entrainment_m_s, 1e-3),
                 Along::Entrainment => (found.at.slide_roll - aim.slide_roll).abs() < 1e-3,
@@ -82,26 +69,26 @@ impl App {
 
     /// All that was simulated in this sitting.
     pub(crate) fn all_simulated(&self) -> impl Iterator<Item = &Found> {
-        self.simulated.iter()
+        self.lives.simulated.iter()
     }
 
     /// The newer of two points in the same place stays.
     pub(super) fn keep_point(&mut self, new: Found) {
-        self.simulated.retain(|old| {
+        self.lives.simulated.retain(|old| {
             let (old, new) = (&old.at, &new.at);
             !same_contact(old, new)
                 || (old.slide_roll - new.slide_roll).abs() > SAME_S
                 || !close(old.entrainment_m_s, new.entrainment_m_s, SAME_SPEED)
         });
-        if self.simulated.len() == KEPT {
-            self.simulated.remove(0);
+        if self.lives.simulated.len() == KEPT {
+            self.lives.simulated.remove(0);
         }
-        self.simulated.push(new);
+        self.lives.simulated.push(new);
     }
 
     /// Takes what a sweep has found; `progress`: values done and in all, `None` when there is no sweep.
     pub fn take_swept(&mut self, found: Vec<Found>, progress: Option<(usize, usize)>) {
-        self.sweep = progress.filter(|(done, all)| done < all);
+        self.lives.sweep = progress.filter(|(done, all)| done < all);
         for point in found {
             self.keep_point(point);
         }
@@ -109,10 +96,11 @@ impl App {
 
     /// Asks for what is missing on the curve that is shown.
     pub(super) fn begin_sweep(&mut self) -> Vec<Effect> {
-        if self.held().is_none_or(|held| held.state.is_none()) {
+        let settled = self.replay.settled.as_ref();
+        if settled.is_none_or(|settled| settled.state.is_none()) {
             return Vec::new();
         }
-        let along = self.curve.along();
+        let along = self.view.curve.along();
         let known = |value: f64| {
             self.simulated(along).any(|found| match along {
                 Along::SlideRoll => (found.at.slide_roll - value).abs() <= SAME_S,
@@ -123,7 +111,7 @@ impl App {
         if values.is_empty() {
             return Vec::new();
         }
-        self.sweeping = along;
+        self.lives.sweeping = along;
         let scene = self.scene_now();
         vec![Effect::Sweep(Box::new(CurveOrder {
             along,
@@ -138,7 +126,7 @@ impl App {
             Along::SlideRoll => Knob::SlideRoll,
             Along::Entrainment => Knob::EntrainmentMS,
         };
-        let dial = self.dials.iter().find(|dial| dial.knob == knob);
+        let dial = self.choice.dials.iter().find(|dial| dial.knob == knob);
         let mut values: Vec<f64> = match along {
             Along::SlideRoll => SWEPT.iter().flat_map(|s| [*s, -*s]).collect(),
             Along::Entrainment => {
@@ -156,9 +144,9 @@ impl App {
 
     /// The next curve; what it lacks is computed.
     pub(super) fn next_curve(&mut self) -> Vec<Effect> {
-        let before = self.curve.along();
-        self.curve = self.curve.next();
-        if self.curve.along() == before {
+        let before = self.view.curve.along();
+        self.view.curve = self.view.curve.next();
+        if self.view.curve.along() == before {
             return Vec::new();
         }
         self.begin_sweep()

@@ -1,6 +1,8 @@
 //! What the screen's state is made of, and what it asks for.
 
-use crate::tui::app::Leading;
+use crate::tui::kinds::Leading;
+use crate::tui::trace::TraceSample;
+use asperity_engine::physics::estimate::Factors;
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::Frame;
 use asperity_session::run::Command;
@@ -60,7 +62,7 @@ pub struct Pinned {
 /// The upper ends of the curves' axes, which have few rows: what was reached. They only grow, so that frames can be
 /// compared. Maps have the ranges of all pictures ([`asperity_picture::Ranges`]).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Reached {
+pub struct AxisEnds {
     /// Pressure, Pa.
     pub pressure_pa: f64,
     /// Film, m.
@@ -112,4 +114,65 @@ pub struct LifeSample {
     pub passages: f64,
     /// Relative life.
     pub life_relative: f64,
+}
+
+/// What a state is told by, of the simulation or of the formula.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LifeAccount {
+    /// Contacts of the body that meets most in one loading cycle; `None`: a body stands.
+    pub n: Option<f64>,
+    /// Cycles, peaks, traction, load.
+    pub factors: Factors,
+    /// Mean film of the central part, m; 0: dry.
+    pub film_m: f64,
+    /// The body that governs: 1 or 2; 0: both alike.
+    pub body: u8,
+}
+
+/// A state before a knob was turned.
+#[derive(Debug, Clone)]
+pub struct StateBefore {
+    /// Where each knob was.
+    pub(super) targets: Vec<f64>,
+    pub(super) formula: LifeAccount,
+    /// `None`: it had not settled.
+    pub(super) simulated: Option<LifeAccount>,
+}
+
+/// Mean of a number over the frames since the life has settled: within a period it comes and goes.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct SettledMean {
+    sum: f64,
+    frames: f64,
+}
+
+impl SettledMean {
+    /// The mean with one more frame.
+    pub(super) fn add(&mut self, value: f64) -> f64 {
+        self.sum += value;
+        self.frames += 1.0;
+        self.sum / self.frames
+    }
+
+    /// The mean; `None`: of no frame.
+    pub(super) fn value(self) -> Option<f64> {
+        (self.frames > 0.0).then(|| self.sum / self.frames)
+    }
+}
+
+/// A material point now.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointNow {
+    /// Body: 1 or 2.
+    pub body: u8,
+    /// Depth at which its stress is given, m.
+    pub depth_m: f64,
+    /// Where it is and what it feels.
+    pub sample: TraceSample,
+    /// Cycles a crossing by formula: n, expected on average.
+    pub expected: Option<f64>,
+    /// Mean of the crossings that were counted.
+    pub average: Option<f64>,
+    /// Closed cycles: in a replay of this crossing, else of the one before.
+    pub closed: Option<f64>,
 }

@@ -3,9 +3,11 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::tui::app::curve::{MeanFriction, conditions};
-use crate::tui::app::{App, Effect, LifeSample, Reached, RunPace, Trouble};
+use super::curve::conditions;
+use super::data::{AxisEnds, Effect, LifeSample, SettledMean, Trouble};
+use super::state::App;
 use crate::tui::dial::Dial;
+use crate::tui::kinds::RunPace;
 use crate::tui::units::nice_ceiling;
 use asperity_engine::physics::estimate::OperatingPoint;
 use asperity_engine::sim::{Frame, MaterialPoint, Stage};
@@ -21,7 +23,7 @@ const HISTORY: usize = 1024;
 /// Wall time over which the speed of the run is averaged.
 const RATE_WINDOW: Duration = Duration::from_secs(2);
 /// How long a step that did not converge is told: single ones would flicker.
-const TOLD: Duration = Duration::from_secs(3);
+const TROUBLE_SHOWN: Duration = Duration::from_secs(3);
 /// How long a knob that was set here is not overruled by what a frame says of its target.
 const GRACE: Duration = Duration::from_millis(1500);
 
@@ -29,57 +31,62 @@ impl App {
     /// Takes a newer frame.
     pub fn take_frame(&mut self, frame: Arc<Frame>) -> Vec<Effect> {
         if self
-            .past
+            .run
+            .frames
             .back()
             .is_some_and(|last| last.stage != frame.stage)
         {
             // What the start-up reached is no measure of the passage.
-            self.reached = Reached::default();
-            self.rate.clear();
+            self.run.axis_ends = AxisEnds::default();
+            self.run.step_times.clear();
         }
         self.take_knobs(&frame);
         self.take_ranges(&frame);
-        grow(&mut self.reached, &frame);
+        grow(&mut self.run.axis_ends, &frame);
         if let Some(point) = &frame.material_point
-            && self.replay.is_none()
+            && self.replay.playing.is_none()
         {
-            self.trace.push(point, frame.a_m);
+            self.replay.trace.push(point, frame.a_m);
         }
         self.take_rate(&frame);
         if !frame.metrics.converged {
-            let trouble = Trouble::of(&frame, self.setup.scene.numerics.tolerance);
-            self.trouble = Some((trouble, self.now + TOLD));
+            let trouble = Trouble::of(&frame, self.run.setup.scene.numerics.tolerance);
+            self.run.trouble = Some((trouble, self.now + TROUBLE_SHOWN));
         }
         self.take_life(&frame);
         self.take_film(&frame);
-        self.waves.push(&frame);
+        self.run.kymograph.push(&frame);
         self.keep(frame);
         self.refresh_estimate();
-        self.keep_ghost_alike();
+        self.keep_frozen_alike();
         self.tour_on()
     }
 
     /// Takes the material points of all steps since the last frame: the screen is slower than the run, and a
     /// crossing that is sampled by the screen would lose its teeth.
     pub fn take_points(&mut self, points: &[MaterialPoint], a_m: f64) {
-        if self.replay.is_none() {
+        if self.replay.playing.is_none() {
             for point in points {
-                self.trace.push(point, a_m);
+                self.replay.trace.push(point, a_m);
             }
         }
     }
 
     /// What went wrong with a step of the last seconds, or with the one that is looked at.
     pub fn trouble(&self) -> Option<Trouble> {
-        let tolerance = self.setup.scene.numerics.tolerance;
+        let tolerance = self.run.setup.scene.numerics.tolerance;
         let shown = self.frame().filter(|frame| !frame.metrics.converged);
         let shown = shown.map(|frame| Trouble::of(frame, tolerance));
-        let told = self.trouble.filter(|(_, until)| self.now < *until);
-        shown.or_else(|| told.filter(|_| self.back == 0).map(|(trouble, _)| trouble))
+        let recent = self.run.trouble.filter(|(_, until)| self.now < *until);
+        shown.or_else(|| {
+            recent
+                .filter(|_| self.run.frames_back == 0)
+                .map(|(trouble, _)| trouble)
+        })
     }
 
     fn take_knobs(&mut self, frame: &Frame) {
-        for (dial, set_at) in self.dials.iter_mut().zip(&self.set_at) {
+        for (dial, set_at) in self.choice.dials.iter_mut().zip(&self.choice.set_at) {
             let quantity = dial.knob.quantity();
             dial.now = quantity.number(frame).unwrap_or(dial.now);
             let ours = set_at.is_some_and(|at| self.now < at + GRACE);
@@ -95,9 +102,9 @@ impl App {
 
     /// Ranges are those of the passage as it begins, as in recordings; a start-up has no measure of its own.
     fn take_ranges(&mut self, frame: &Frame) {
-        let scene = Some(self.setup.scene.as_ref());
-        let began = self.past.back().map(|last| last.stage);
-        let scope = match &mut self.scope {
+        let scene = Some(self.run.setup.scene.as_ref());
+        let began = self.run.frames.back().map(|last| last.stage);
+        let scope = match &mut self.run.scope {
             Some(scope) if began == Some(Stage::Passage) && frame.stage == Stage::Passage => scope,
             scope => scope.insert(Scope::of(scene, frame)),
         };
@@ -105,19 +112,20 @@ impl App {
     }
 
     fn take_rate(&mut self, frame: &Frame) {
-        if self.pace == RunPace::Paused {
+        if self.run.pace == RunPace::Paused {
             // A pause is no part of the run's pace.
-            self.rate.clear();
+            self.run.step_times.clear();
             return;
         }
-        self.rate.push_back((self.now, frame.step));
-        while self.rate.len() > 2
+        self.run.step_times.push_back((self.now, frame.step));
+        while self.run.step_times.len() > 2
             && self
-                .rate
+                .run
+                .step_times
                 .get(1)
                 .is_some_and(|(at, _)| *at + RATE_WINDOW < self.now)
         {
-            self.rate.pop_front();
+            self.run.step_times.pop_front();
         }
     }
 
@@ -128,18 +136,18 @@ impl App {
         if frame.stage == Stage::StartUp || !is_number {
             return;
         }
-        if self.history.len() == HISTORY {
-            self.history.pop_front();
+        if self.lives.history.len() == HISTORY {
+            self.lives.history.pop_front();
         }
-        self.history.push_back(LifeSample {
+        self.lives.history.push_back(LifeSample {
             passages: frame.passages,
             life_relative: life.life_relative,
         });
-        if !life.settled || self.dials.iter().any(Dial::is_moving) {
-            self.friction = MeanFriction::default();
+        if !life.settled || self.choice.dials.iter().any(Dial::is_moving) {
+            self.lives.friction = SettledMean::default();
             return;
         }
-        let friction = self.friction.add(metrics.friction_coefficient);
+        let friction = self.lives.friction.add(metrics.friction_coefficient);
         self.keep_point(Found {
             at: conditions(metrics),
             began: CaseStart::Warm,
@@ -165,35 +173,35 @@ impl App {
         let fields = 5 * 4 + 1;
         let bytes = (frame.nx * frame.ny * fields).max(1);
         let most = (PAST_BYTES / bytes).clamp(2, PAST_FRAMES);
-        self.past.push_back(frame);
-        while self.past.len() > most {
-            self.past.pop_front();
+        self.run.frames.push_back(frame);
+        while self.run.frames.len() > most {
+            self.run.frames.pop_front();
         }
         // The past stays where it is while one looks at it.
-        if self.back > 0 {
-            self.back = (self.back + 1).min(self.past.len() - 1);
+        if self.run.frames_back > 0 {
+            self.run.frames_back = (self.run.frames_back + 1).min(self.run.frames.len() - 1);
         }
     }
 }
 
-fn grow(reached: &mut Reached, frame: &Frame) {
+fn grow(ends: &mut AxisEnds, frame: &Frame) {
     let grow = |old: &mut f64, value: f64| {
         if value.is_finite() && value > *old {
             *old = nice_ceiling(value);
         }
     };
-    let greatest = |field: &[f32]| {
+    let maximum = |field: &[f32]| {
         let most = field
             .iter()
             .fold(0.0_f32, |most, value| most.max(value.abs()));
         f64::from(most)
     };
-    grow(&mut reached.pressure_pa, frame.p_hertz_pa);
-    grow(&mut reached.pressure_pa, greatest(&frame.pressure_pa));
-    grow(&mut reached.film_m, film_inside(frame));
+    grow(&mut ends.pressure_pa, frame.p_hertz_pa);
+    grow(&mut ends.pressure_pa, maximum(&frame.pressure_pa));
+    grow(&mut ends.film_m, film_inside(frame));
 }
 
-/// The greatest film on the centre line inside the contact: outside it the gap grows without end.
+/// The maximum film on the centre line inside the contact: outside it the gap grows without end.
 fn film_inside(frame: &Frame) -> f64 {
     let row = frame.ny / 2 * frame.nx;
     let Some(line) = frame.film_m.get(row..row + frame.nx) else {

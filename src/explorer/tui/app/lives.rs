@@ -1,7 +1,8 @@
 //! The life that leads, by its source: simulated, scaled from what was, or the formula alone.
 
-use crate::tui::app::{App, Leading, point_of};
+use super::state::{App, point_of};
 use crate::tui::dial::Dial;
+use crate::tui::kinds::Leading;
 use asperity_engine::physics::estimate::{Anchor, Factors, OperatingPoint};
 use asperity_engine::sim::{Caution, LifeEstimate, Stage};
 
@@ -16,9 +17,9 @@ impl App {
     /// Which number leads: what was simulated, where that holds for where the knobs are.
     pub fn leading(&self) -> Leading {
         let settled = self.life().is_some_and(|life| life.settled);
-        if settled && !self.dials.iter().any(Dial::is_moving) {
+        if settled && !self.choice.dials.iter().any(Dial::is_moving) {
             Leading::Simulated
-        } else if self.anchor.is_some() {
+        } else if self.lives.anchor.is_some() {
             Leading::Scaled
         } else {
             Leading::Formula
@@ -27,10 +28,10 @@ impl App {
 
     /// The factors of the life that leads; `None`: the scene computes no life.
     pub fn leading_factors(&self) -> Option<Factors> {
-        self.setup.scene.life.as_ref()?;
+        self.run.setup.scene.life.as_ref()?;
         match (self.leading(), self.life()) {
             (Leading::Simulated, Some(life)) => Some(simulated(&life)),
-            _ => Some(self.estimate.best()),
+            _ => Some(self.lives.estimate.best()),
         }
     }
 
@@ -44,33 +45,40 @@ impl App {
 
     /// Life now over life pinned, what the load costs included.
     pub fn against_pinned(&self) -> Option<f64> {
-        let pinned = self.pinned?;
+        let pinned = self.view.pinned?;
         let now = self.leading_life()? * self.leading_factors()?.load;
         Some(now / (pinned.life_relative * pinned.load_factor))
     }
 
     /// Life at another S by formula, all else as the knobs are.
     pub fn formula_at(&self, slide_roll: f64) -> Option<f64> {
-        self.loaded.factors(&self.basis, slide_roll).life()
+        self.lives
+            .loaded
+            .factors(&self.lives.basis, slide_roll)
+            .life()
     }
 
     pub(super) fn refresh_estimate(&mut self) {
-        let point = point_of(&self.dials);
-        if !self.loaded.holds_at(&point) {
-            self.loaded = self.basis.loaded(&point);
+        let point = point_of(&self.choice.dials);
+        if !self.lives.loaded.holds_at(&point) {
+            self.lives.loaded = self.lives.basis.loaded(&point);
         }
-        self.estimate = self
-            .basis
-            .estimate(&self.loaded, self.anchor.as_ref(), &point);
+        self.lives.estimate =
+            self.lives
+                .basis
+                .estimate(&self.lives.loaded, self.lives.anchor.as_ref(), &point);
     }
 
     /// Lives are scaled from this one from now on.
     pub(super) fn drop_anchor(&mut self, at: &OperatingPoint, life: &LifeEstimate) {
-        let known = [Some(self.loaded), self.anchor.map(|anchor| anchor.loaded)];
+        let known = [
+            Some(self.lives.loaded),
+            self.lives.anchor.map(|anchor| anchor.loaded),
+        ];
         let known = known.into_iter().flatten().find(|one| one.holds_at(at));
-        let loaded = known.unwrap_or_else(|| self.basis.loaded(at));
-        self.anchor = Some(Anchor::new(
-            &self.basis,
+        let loaded = known.unwrap_or_else(|| self.lives.basis.loaded(at));
+        self.lives.anchor = Some(Anchor::new(
+            &self.lives.basis,
             loaded,
             at.slide_roll,
             simulated(life),

@@ -1,9 +1,11 @@
 //! What an action does.
 
+use super::data::{Effect, ErrandKind, Pinned};
+use super::state::App;
 use crate::tui::action::{Action, KEYS};
-use crate::tui::app::{App, Effect, ErrandKind, MapKind, Overlay, Pinned, RunPace, Zoom};
 use crate::tui::choice::Form;
 use crate::tui::dial::DialState;
+use crate::tui::kinds::{MapKind, Overlay, RunPace, Zoom};
 use asperity_engine::sim::Knob;
 use asperity_session::run::Command;
 
@@ -11,7 +13,7 @@ impl App {
     /// Does what an action asks, and says what the loop has to do about it.
     pub fn apply(&mut self, action: Action) -> Vec<Effect> {
         let effects = self.applied(action);
-        self.keep_ghost_alike();
+        self.keep_frozen_alike();
         effects
     }
 
@@ -25,22 +27,25 @@ impl App {
         match action {
             Action::Quit => vec![Effect::Quit],
             Action::Suspend => vec![Effect::Suspend],
-            Action::ChooseNext | Action::ChoosePrevious if self.overlay != Overlay::None => {
+            Action::ChooseNext | Action::ChoosePrevious if self.view.overlay != Overlay::None => {
                 self.scroll(action);
                 Vec::new()
             }
-            Action::ChooseNext => self.choose(self.chosen + 1),
-            Action::ChoosePrevious => self.choose(self.chosen + self.dials.len() - 1),
+            Action::ChooseNext => self.choose(self.choice.chosen + 1),
+            Action::ChoosePrevious => self.choose(self.choice.chosen + self.choice.dials.len() - 1),
             Action::Choose(place) => self.choose(place),
             Action::Turn(steps) => self.turn(steps),
-            Action::TurnFar(steps) => self.turn(steps * self.dials[self.chosen].far),
+            Action::TurnFar(steps) => self.turn(steps * self.choice.dials[self.choice.chosen].far),
             Action::Slide(place, fraction) => self.slide(place, fraction),
             Action::Type => self.begin_typing(),
             Action::GoTo(knob, value) => self.go_to(knob, value),
             Action::Typical(n) => self.typical(n),
-            Action::Home => self.set(self.chosen, self.dials[self.chosen].home),
-            Action::HomeAll => (0..self.dials.len())
-                .flat_map(|place| self.set(place, self.dials[place].home))
+            Action::Home => self.set(
+                self.choice.chosen,
+                self.choice.dials[self.choice.chosen].home,
+            ),
+            Action::HomeAll => (0..self.choice.dials.len())
+                .flat_map(|place| self.set(place, self.choice.dials[place].home))
                 .collect(),
             Action::TogglePause => self.toggle_pause(),
             Action::StepForward => self.step_forward(),
@@ -65,100 +70,120 @@ impl App {
         }
     }
 
-    /// Actions that change only what is shown.
+    /// Actions that change only what is shown; the others have been done, or mean nothing here.
     fn show(&mut self, action: Action) {
         match action {
-            Action::NextMap => self.show_map(self.map.shifted(1)),
-            Action::PreviousMap => self.show_map(self.map.shifted(MapKind::ALL.len() - 1)),
+            Action::NextMap => self.show_map(self.view.map.shifted(1)),
+            Action::PreviousMap => self.show_map(self.view.map.shifted(-1)),
             Action::Zoom => {
-                self.zoom = match self.zoom {
+                self.view.zoom = match self.view.zoom {
                     Zoom::Contact => Zoom::Domain,
                     Zoom::Domain => Zoom::Contact,
                 }
             }
-            Action::Probe(x, y) => self.probe = Some((x, y)),
+            Action::Probe(x, y) => self.view.probe = Some((x, y)),
             Action::Pin => self.pin(),
-            Action::PointQuantity => self.quantity = self.quantity.next(),
+            Action::PointQuantity => self.view.point_quantity = self.view.point_quantity.next(),
             Action::ReplayFaster(times) => self.replay_faster(times),
-            Action::Units => self.units = self.units.next(),
-            Action::Contrast => self.theme.next_contrast(),
-            Action::Pixels => self.next_pixels(),
+            Action::Units => self.view.units = self.view.units.next(),
+            Action::Contrast => self.view.theme.next_contrast(),
             Action::Help => self.toggle(Overlay::Help),
             Action::Plan => self.toggle(Overlay::Plan),
             Action::Scene => self.toggle_draft(Form::Scene),
             Action::OperatingPoint => self.toggle_draft(Form::Point),
             Action::Lessons => self.toggle_lessons(),
-            Action::Focus(panel) => self.focus = panel,
+            Action::Focus(panel) => self.view.focus = panel,
             Action::NextPanel(by) => self.focus_next(by),
             Action::Enter => self.toggle_enlarged(),
             Action::Close => self.close(),
-            _ => {}
+            Action::Quit
+            | Action::Suspend
+            | Action::ChooseNext
+            | Action::ChoosePrevious
+            | Action::Choose(_)
+            | Action::Turn(_)
+            | Action::TurnFar(_)
+            | Action::Slide(_, _)
+            | Action::Typical(_)
+            | Action::GoTo(_, _)
+            | Action::Type
+            | Action::Letter(_)
+            | Action::Erase
+            | Action::Home
+            | Action::HomeAll
+            | Action::TogglePause
+            | Action::StepForward
+            | Action::StepBack
+            | Action::PointBody
+            | Action::PointDepth(_)
+            | Action::MovePoint(_)
+            | Action::PutPoint(_)
+            | Action::Curve
+            | Action::Replay
+            | Action::Record
+            | Action::View
+            | Action::Save
+            | Action::Write
+            | Action::EndTour
+            | Action::NextBeat
+            | Action::PreviousBeat => {}
         }
-    }
-
-    fn next_pixels(&mut self) {
-        if !self.theme.paints() {
-            self.say("the map is drawn in letters: this terminal shows no colours");
-            return;
-        }
-        let next = self.pixels().next();
-        self.set_pixels(next);
-        self.say(format!(
-            "map drawn in {}, if the terminal supports them (g: next)",
-            next.name()
-        ));
     }
 
     fn show_map(&mut self, map: MapKind) {
         // A place in the plane is none below it, or in the past.
-        if !(map.is_plane() && self.map.is_plane()) {
-            self.probe = None;
+        if !(map.is_plane() && self.view.map.is_plane()) {
+            self.view.probe = None;
         }
-        self.map = map;
+        self.view.map = map;
     }
 
     /// Moves what lies over the screen, up to its last line.
     fn scroll(&mut self, action: Action) {
-        let last = match self.overlay {
+        let last = match self.view.overlay {
             // On narrow screens a line takes up to three rows.
             Overlay::Plan => {
-                let all = self.setup.plan_text.lines().count() + self.setup.left_out.len();
+                let all = self.run.setup.plan_text.lines().count() + self.run.setup.left_out.len();
                 3 * (all + self.cautions().len())
             }
             _ => KEYS.len(),
         };
-        self.scroll = if action == Action::ChooseNext {
-            (self.scroll + 1).min(last as u16)
+        self.view.scroll = if action == Action::ChooseNext {
+            (self.view.scroll + 1).min(last as u16)
         } else {
-            self.scroll.saturating_sub(1)
+            self.view.scroll.saturating_sub(1)
         };
     }
 
     fn choose(&mut self, place: usize) -> Vec<Effect> {
-        self.chosen = place % self.dials.len();
+        self.choice.chosen = place % self.choice.dials.len();
         Vec::new()
     }
 
     fn turn(&mut self, steps: i32) -> Vec<Effect> {
-        let value = self.dials[self.chosen].turned(steps);
-        self.set(self.chosen, value)
+        let value = self.choice.dials[self.choice.chosen].turned(steps);
+        self.set(self.choice.chosen, value)
     }
 
     fn slide(&mut self, place: usize, fraction: f64) -> Vec<Effect> {
-        if place >= self.dials.len() {
+        if place >= self.choice.dials.len() {
             return Vec::new();
         }
-        self.chosen = place;
-        let value = self.dials[place].at_fraction(fraction);
+        self.choice.chosen = place;
+        let value = self.choice.dials[place].at_fraction(fraction);
         self.set(place, value)
     }
 
     fn typical(&mut self, n: usize) -> Vec<Effect> {
-        match self.dials[self.chosen].typical.get(n).copied() {
+        match self.choice.dials[self.choice.chosen]
+            .typical
+            .get(n)
+            .copied()
+        {
             Some((value, of)) => {
-                let effects = self.set(self.chosen, value);
+                let effects = self.set(self.choice.chosen, value);
                 if !of.is_empty() {
-                    let name = self.dials[self.chosen].name();
+                    let name = self.choice.dials[self.choice.chosen].name();
                     self.say(format!("{name} as of {of}"));
                 }
                 effects
@@ -169,8 +194,8 @@ impl App {
 
     /// Moves a knob's target; the estimate follows at once, the run when it gets there.
     pub(super) fn set(&mut self, place: usize, value: f64) -> Vec<Effect> {
-        let dial = &self.dials[place];
-        if let DialState::Dead(reason) = dial.life {
+        let dial = &self.choice.dials[place];
+        if let DialState::Dead(reason) = dial.state {
             let line = format!(
                 "{}: the surface is {reason}, so there is nothing to turn",
                 dial.label
@@ -183,9 +208,9 @@ impl App {
         }
         let command = Command::Set(dial.knob, value);
         self.keep_before();
-        self.dials[place].target = value;
-        self.set_at[place] = Some(self.now);
-        self.back = 0;
+        self.choice.dials[place].target = value;
+        self.choice.set_at[place] = Some(self.now);
+        self.run.frames_back = 0;
         self.refresh_estimate();
         let mut effects = vec![Effect::Send(command)];
         effects.extend(self.unsettle());
@@ -196,12 +221,12 @@ impl App {
         if self.replay_stepped(0) {
             return Vec::new();
         }
-        self.pace = match self.pace {
+        self.run.pace = match self.run.pace {
             RunPace::Running => RunPace::Paused,
             RunPace::Paused => RunPace::Running,
         };
-        self.rate.clear();
-        self.back = 0;
+        self.run.step_times.clear();
+        self.run.frames_back = 0;
         vec![Effect::Send(Command::Pause)]
     }
 
@@ -209,8 +234,8 @@ impl App {
         if self.replay_stepped(1) {
             return Vec::new();
         }
-        if self.back > 0 {
-            self.back -= 1;
+        if self.run.frames_back > 0 {
+            self.run.frames_back -= 1;
             return Vec::new();
         }
         let mut effects = self.paused_first();
@@ -223,16 +248,17 @@ impl App {
             return Vec::new();
         }
         let effects = self.paused_first();
-        self.back = (self.back + 1).min(self.past.len().saturating_sub(1));
+        self.run.frames_back =
+            (self.run.frames_back + 1).min(self.run.frames.len().saturating_sub(1));
         effects
     }
 
     pub(super) fn paused_first(&mut self) -> Vec<Effect> {
-        match self.pace {
+        match self.run.pace {
             RunPace::Paused => Vec::new(),
             RunPace::Running => {
-                self.pace = RunPace::Paused;
-                self.rate.clear();
+                self.run.pace = RunPace::Paused;
+                self.run.step_times.clear();
                 vec![Effect::Send(Command::Pause)]
             }
         }
@@ -255,32 +281,32 @@ impl App {
     }
 
     fn pin(&mut self) {
-        if self.ghost.take().is_some() {
-            self.pinned = None;
+        if self.view.frozen.take().is_some() {
+            self.view.pinned = None;
             return;
         }
-        self.ghost = self.frozen();
+        self.view.frozen = self.freeze();
         let lives = self.leading_life().zip(self.leading_factors());
         let Some((life_relative, factors)) = lives else {
             self.say("no life to compare with: there is no estimate");
             return;
         };
-        self.pinned = Some(Pinned {
+        self.view.pinned = Some(Pinned {
             life_relative,
             load_factor: factors.load,
             leading: self.leading(),
             slide_roll: self.target(Knob::SlideRoll),
             load_n: self.load_n(),
-            p_hertz_pa: self.estimate.p_hertz_pa,
+            p_hertz_pa: self.lives.estimate.p_hertz_pa,
         });
     }
 
     pub(super) fn toggle(&mut self, overlay: Overlay) {
         // What is asked for is seen, not hidden behind a fault.
-        self.fault_read |= self.fault().is_some();
-        self.scroll = 0;
-        self.draft = None;
-        self.overlay = if self.overlay == overlay {
+        self.run.fault_read |= self.fault().is_some();
+        self.view.scroll = 0;
+        self.choice.draft = None;
+        self.view.overlay = if self.view.overlay == overlay {
             Overlay::None
         } else {
             overlay
@@ -289,30 +315,30 @@ impl App {
 
     /// The focused panel takes the screen, or gives it back.
     fn toggle_enlarged(&mut self) {
-        self.enlarged = match self.enlarged {
-            None => Some(self.focus),
+        self.view.enlarged = match self.view.enlarged {
+            None => Some(self.view.focus),
             Some(_) => None,
         };
     }
 
-    fn focus_next(&mut self, by: usize) {
-        self.focus = self.focus.next(by);
-        if self.enlarged.is_some() {
-            self.enlarged = Some(self.focus);
+    fn focus_next(&mut self, by: i32) {
+        self.view.focus = self.view.focus.shifted(by);
+        if self.view.enlarged.is_some() {
+            self.view.enlarged = Some(self.view.focus);
         }
     }
 
     fn close(&mut self) {
         if self.fault().is_some() {
-            self.fault_read = true;
-        } else if self.overlay == Overlay::None && self.enlarged.is_some() {
-            self.enlarged = None;
-        } else if self.overlay == Overlay::None {
-            self.probe = None;
-            self.back = 0;
+            self.run.fault_read = true;
+        } else if self.view.overlay == Overlay::None && self.view.enlarged.is_some() {
+            self.view.enlarged = None;
+        } else if self.view.overlay == Overlay::None {
+            self.view.probe = None;
+            self.run.frames_back = 0;
         } else {
-            self.overlay = Overlay::None;
-            self.draft = None;
+            self.view.overlay = Overlay::None;
+            self.choice.draft = None;
         }
     }
 }

@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use super::data::{Effect, ErrandKind};
+use super::state::{App, ViewState};
+use super::typed::LONGEST;
 use crate::tui::action::Action;
-use crate::tui::app::typed::LONGEST;
-use crate::tui::app::{App, Effect, ErrandKind, Overlay};
 use crate::tui::choice::{Draft, Form};
+use crate::tui::kinds::Overlay;
 use crate::tui::tables;
 use crate::tui::wiring::{Setup, Shown};
 use asperity_engine::scene::Scene;
@@ -15,42 +17,47 @@ impl App {
     /// The screen of a new run, which keeps how things are shown, the tour and the pinned life where it can
     /// still be compared with.
     pub fn rebuilt(&mut self, setup: Setup) -> Vec<Effect> {
-        let same_contact = setup.scene.contact == self.setup.scene.contact
-            && (setup.p_hertz_pa / self.setup.p_hertz_pa - 1.0).abs() < 1e-9;
-        let fresh = Self::new(setup, std::mem::take(&mut self.errands), self.theme);
+        let same_contact = setup.scene.contact == self.run.setup.scene.contact
+            && (setup.p_hertz_pa / self.run.setup.p_hertz_pa - 1.0).abs() < 1e-9;
+        let errands = std::mem::take(&mut self.run.errands);
+        let fresh = Self::new(setup, errands, self.view.theme);
         let old = std::mem::replace(self, fresh);
-        self.units = old.units;
-        (self.now, self.message) = (old.now, old.message);
-        (self.map, self.zoom, self.quantity) = (old.map, old.zoom, old.quantity);
-        (self.curve, self.pixels) = (old.curve, old.pixels);
-        self.pinned = old.pinned.filter(|_| same_contact);
+        self.now = old.now;
         // A frozen picture can be looked at beside any other.
-        self.ghost = old.ghost;
-        (self.staged, self.own) = (old.staged, old.own);
-        (self.lessons, self.lesson) = (old.lessons, old.lesson);
-        (self.focus, self.enlarged) = (old.focus, old.enlarged);
-        self.tour = old.tour;
+        self.view = ViewState {
+            overlay: Overlay::None,
+            scroll: 0,
+            probe: None,
+            pinned: old.view.pinned.filter(|_| same_contact),
+            ..old.view
+        };
+        self.lesson = old.lesson;
         self.show_beat()
     }
 
     /// The scene could not be run; the old run goes on.
     pub fn not_rebuilt(&mut self, reason: String) {
-        self.tour = None;
-        self.staged = None;
+        self.lesson.tour = None;
+        self.lesson.staged = None;
         self.say(reason);
     }
 
     /// Opens or closes the choice of another scene or operating point; from one to the other the draft stays.
     pub(super) fn toggle_draft(&mut self, form: Form) {
-        if let Some(draft) = self.draft.as_mut().filter(|draft| draft.form != form) {
+        if let Some(draft) = self
+            .choice
+            .draft
+            .as_mut()
+            .filter(|draft| draft.form != form)
+        {
             draft.turn_to(form);
-        } else if self.overlay == Overlay::Scene {
-            self.overlay = Overlay::None;
-            self.draft = None;
+        } else if self.view.overlay == Overlay::Scene {
+            self.view.overlay = Overlay::None;
+            self.choice.draft = None;
         } else if self.offers(ErrandKind::Rebuild) {
-            self.fault_read |= self.fault().is_some();
-            self.overlay = Overlay::Scene;
-            self.draft = Some(Draft::new(self.scene_now(), form));
+            self.run.fault_read |= self.fault().is_some();
+            self.view.overlay = Overlay::Scene;
+            self.choice.draft = Some(Draft::new(self.scene_now(), form));
         } else {
             self.say("no other scene can be started from here");
         }
@@ -58,8 +65,8 @@ impl App {
 
     /// Turns a draft's rows with the keys of the knobs; `None`: no draft is open, or it is no such key.
     pub(super) fn draft_takes(&mut self, action: Action) -> Option<Vec<Effect>> {
-        let units = self.units;
-        let draft = self.draft.as_mut()?;
+        let units = self.view.units;
+        let draft = self.choice.draft.as_mut()?;
         if let Some(typed) = &mut draft.typed {
             match action {
                 Action::Letter(letter) if typed.chars().count() < LONGEST => typed.push(letter),
@@ -85,18 +92,18 @@ impl App {
     }
 
     fn run_draft(&mut self) -> Vec<Effect> {
-        let Some(draft) = self.draft.take_if(|draft| draft.verdict.is_ok()) else {
+        let Some(draft) = self.choice.draft.take_if(|draft| draft.verdict.is_ok()) else {
             // A number that was refused is read; what the scene itself lacks is told again.
-            self.draft.iter_mut().for_each(Draft::judge);
+            self.choice.draft.iter_mut().for_each(Draft::judge);
             return Vec::new();
         };
-        self.overlay = Overlay::None;
-        self.tour = None;
-        self.staged = None;
+        self.view.overlay = Overlay::None;
+        self.lesson.tour = None;
+        self.lesson.staged = None;
         let name = draft
             .preset
-            .map_or_else(|| self.own.1.clone(), str::to_owned);
-        self.own = (draft.scene.clone().into(), name.clone());
+            .map_or_else(|| self.lesson.own_scene.1.clone(), str::to_owned);
+        self.lesson.own_scene = (draft.scene.clone().into(), name.clone());
         vec![Effect::Rebuild(Box::new(draft.scene), name)]
     }
 
@@ -117,9 +124,14 @@ impl App {
 
     /// The scene with the knobs where they are going.
     pub(super) fn scene_now(&self) -> Scene {
-        let mut scene = (*self.setup.scene).clone();
+        let mut scene = (*self.run.setup.scene).clone();
         // A knob where the scene has it leaves the scene's own words (a load given as a Hertz pressure).
-        for dial in self.dials.iter().filter(|dial| dial.target != dial.home) {
+        for dial in self
+            .choice
+            .dials
+            .iter()
+            .filter(|dial| dial.target != dial.home)
+        {
             dial.knob.put(&mut scene, dial.target);
         }
         scene

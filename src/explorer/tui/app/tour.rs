@@ -2,16 +2,18 @@
 
 use std::sync::Arc;
 
+use super::data::{Effect, ErrandKind};
+use super::state::App;
 use crate::tui::action::Action;
-use crate::tui::app::{App, Effect, ErrandKind, Overlay, RunPace};
-use crate::tui::lessons::{FoundAnswer, Lesson, TourPhase, TourState, reached};
+use crate::tui::kinds::{Overlay, RunPace};
+use crate::tui::lessons::{FoundAnswer, Lesson, TourPhase, TourState};
 use asperity_session::run::Command;
 
 impl App {
     /// Begins a lecturer's own lesson, which then leads the list.
     pub fn teach(&mut self, own: Arc<Lesson>) -> Vec<Effect> {
-        self.lessons = std::iter::once(own)
-            .chain(self.lessons.iter().cloned())
+        self.lesson.all = std::iter::once(own)
+            .chain(self.lesson.all.iter().cloned())
             .collect();
         self.begin_beat(0, 0)
     }
@@ -19,24 +21,30 @@ impl App {
     /// Opens or closes the list of lessons.
     pub(super) fn toggle_lessons(&mut self) {
         self.toggle(Overlay::Lessons);
-        self.lesson = self.tour.as_ref().map_or(self.lesson, |tour| tour.place);
+        self.lesson.chosen = self
+            .lesson
+            .tour
+            .as_ref()
+            .map_or(self.lesson.chosen, |tour| tour.place);
     }
 
     /// Keys that mean something else in the list of lessons, or while a question waits; `None`: they do not.
     pub(super) fn lessons_take(&mut self, action: Action) -> Option<Vec<Effect>> {
-        let all = self.lessons.len();
-        if self.overlay == Overlay::Lessons {
+        let all = self.lesson.all.len();
+        if self.view.overlay == Overlay::Lessons {
             match action {
-                Action::ChooseNext => self.lesson = (self.lesson + 1) % all.max(1),
-                Action::ChoosePrevious => self.lesson = (self.lesson + all - 1) % all.max(1),
-                Action::Enter => return Some(self.begin_beat(self.lesson, 0)),
+                Action::ChooseNext => self.lesson.chosen = (self.lesson.chosen + 1) % all.max(1),
+                Action::ChoosePrevious => {
+                    self.lesson.chosen = (self.lesson.chosen + all - 1) % all.max(1)
+                }
+                Action::Enter => return Some(self.begin_beat(self.lesson.chosen, 0)),
                 Action::Typical(place) if place < all => return Some(self.begin_beat(place, 0)),
                 _ => return None,
             }
             return Some(Vec::new());
         }
         let asks = |tour: &&TourState| tour.phase == TourPhase::Asks;
-        match (self.tour.as_ref().filter(asks), action) {
+        match (self.lesson.tour.as_ref().filter(asks), action) {
             (Some(tour), Action::Typical(place)) => {
                 let answers = tour.beat().question.as_ref()?.answers.len();
                 if place >= answers {
@@ -52,7 +60,7 @@ impl App {
     /// What the lesson shows when its question has been answered, or was passed over.
     fn answer(&mut self, said: Option<usize>) -> Vec<Effect> {
         let (passages, now) = (self.passages(), self.now);
-        if let Some(tour) = &mut self.tour {
+        if let Some(tour) = &mut self.lesson.tour {
             tour.said = said;
             tour.show(passages, now);
         }
@@ -62,7 +70,7 @@ impl App {
     /// A key: to what is shown, to the answer, to the next beat, to the next lesson.
     pub(super) fn next_beat(&mut self) -> Vec<Effect> {
         let passages = self.passages();
-        let Some(tour) = &self.tour else {
+        let Some(tour) = &self.lesson.tour else {
             self.say("no lesson: t lists them");
             return Vec::new();
         };
@@ -77,7 +85,7 @@ impl App {
 
     /// Back: to the question of this beat if it has been answered, else to the beat before.
     pub(super) fn previous_beat(&mut self) -> Vec<Effect> {
-        let Some(tour) = &self.tour else {
+        let Some(tour) = &self.lesson.tour else {
             self.say("no lesson: t lists them");
             return Vec::new();
         };
@@ -94,7 +102,7 @@ impl App {
     /// is the lesson's.
     pub(super) fn tour_on(&mut self) -> Vec<Effect> {
         let (passages, now) = (self.passages(), self.now);
-        let Some(tour) = &self.tour else {
+        let Some(tour) = &self.lesson.tour else {
             return Vec::new();
         };
         let shown = tour.is_shown(passages);
@@ -111,9 +119,9 @@ impl App {
 
     /// Whether run and replay stand.
     fn stands(&self) -> bool {
-        match &self.replay {
+        match &self.replay.playing {
             Some(_) => self.replay_stands(),
-            None => self.pace == RunPace::Paused,
+            None => self.run.pace == RunPace::Paused,
         }
     }
 
@@ -121,7 +129,7 @@ impl App {
     fn tell(&mut self) -> Vec<Effect> {
         let frame = self.frame().map(Arc::clone);
         let now = self.now;
-        let Some(tour) = &mut self.tour else {
+        let Some(tour) = &mut self.lesson.tour else {
             return Vec::new();
         };
         let Some(question) = &tour.beat().question else {
@@ -137,17 +145,17 @@ impl App {
 
     /// A beat as it begins: its question, or what it shows.
     fn begin_beat(&mut self, place: usize, beat: usize) -> Vec<Effect> {
-        let Some(lesson) = self.lessons.get(place) else {
+        let Some(lesson) = self.lesson.all.get(place) else {
             self.say("that was the last lesson");
             return self.leave_tour();
         };
-        if self.overlay == Overlay::Lessons {
-            self.overlay = Overlay::None;
+        if self.view.overlay == Overlay::Lessons {
+            self.view.overlay = Overlay::None;
         }
         let mut next = TourState::begin(Arc::clone(lesson), place, beat);
-        if self.tour.is_none() && self.staged.is_none() {
+        if self.lesson.tour.is_none() && self.lesson.staged.is_none() {
             // What the knobs were turned to is kept for the time after the lessons.
-            self.own = (self.scene_now().into(), self.setup.name.clone());
+            self.lesson.own_scene = (self.scene_now().into(), self.run.setup.name.clone());
         }
         // The end of the beat before, which the numbers of this one may be compared with.
         next.before = self.frame().filter(|_| beat > 0).map(Arc::clone);
@@ -156,7 +164,7 @@ impl App {
             next.phase = TourPhase::Asks;
         }
         let asked = next.beat().question.as_ref().map(|asked| asked.ask.clone());
-        self.tour = Some(next);
+        self.lesson.tour = Some(next);
         match asked {
             Some(words) => vec![Effect::Send(Command::Say(words))],
             None => self.play(),
@@ -165,13 +173,13 @@ impl App {
 
     /// Ends the lesson: back to the user's own scene.
     pub(super) fn leave_tour(&mut self) -> Vec<Effect> {
-        if self.tour.take().is_none() {
+        if self.lesson.tour.take().is_none() {
             return Vec::new();
         }
-        self.enlarged = None;
-        match self.staged.take() {
+        self.view.enlarged = None;
+        match self.lesson.staged.take() {
             Some(_) if self.offers(ErrandKind::Rebuild) => {
-                let (scene, name) = &self.own;
+                let (scene, name) = &self.lesson.own_scene;
                 vec![Effect::Rebuild(Box::new((**scene).clone()), name.clone())]
             }
             _ => self.apply(Action::HomeAll),
@@ -180,16 +188,18 @@ impl App {
 
     /// Plays a beat: its scene first, where another one runs; its words go to the recording.
     fn play(&mut self) -> Vec<Effect> {
-        let Some(tour) = &self.tour else {
+        let Some(tour) = &self.lesson.tour else {
             return Vec::new();
         };
         let staging = tour.lesson.staging(tour.beat);
         let wanted = staging.filter(|_| self.offers(ErrandKind::Rebuild));
-        if let Some(staging) = wanted.filter(|staging| self.staged.as_ref() != Some(*staging)) {
+        if let Some(staging) =
+            wanted.filter(|staging| self.lesson.staged.as_ref() != Some(*staging))
+        {
             return match staging.load() {
                 Ok(scene) => {
                     let name = staging.scene.clone();
-                    self.staged = Some(staging.clone());
+                    self.lesson.staged = Some(staging.clone());
                     vec![Effect::Rebuild(Box::new(scene), file_stem(&name))]
                 }
                 Err(error) => {
@@ -205,6 +215,7 @@ impl App {
     pub(super) fn show_beat(&mut self) -> Vec<Effect> {
         let (passages, now) = (self.passages(), self.now);
         let Some(tour) = self
+            .lesson
             .tour
             .as_mut()
             .filter(|tour| tour.phase == TourPhase::Shows)
@@ -214,17 +225,17 @@ impl App {
         tour.show(passages, now);
         let (lesson, at) = (Arc::clone(&tour.lesson), tour.beat);
         let beat = &lesson.beats[at];
-        self.map = beat.map.unwrap_or(self.map);
-        self.quantity = beat.point.unwrap_or(self.quantity);
-        self.enlarged = beat.enlarge;
+        self.view.map = beat.map.unwrap_or(self.view.map);
+        self.view.point_quantity = beat.point.unwrap_or(self.view.point_quantity);
+        self.view.enlarged = beat.enlarge;
         let words = format!("{}: {}", lesson.title, beat.caption);
         let mut effects = vec![Effect::Send(Command::Say(words))];
-        for place in 0..self.dials.len() {
-            let dial = &self.dials[place];
+        for place in 0..self.choice.dials.len() {
+            let dial = &self.choice.dials[place];
             let setting = lesson.setting(at, dial);
             let value = setting.map_or(dial.home, |setting| setting.value(dial));
             // A run without another scene may not go there; a surface that is smooth has nothing to set.
-            if reached(dial, value).is_ok() {
+            if dial.checked(value).is_ok() {
                 effects.extend(self.set(place, value));
             }
         }

@@ -1,6 +1,7 @@
 //! A value that is typed for the chosen knob, in the unit that the screen shows.
 
-use super::{App, Effect};
+use super::data::Effect;
+use super::state::App;
 use crate::tui::action::Action;
 use crate::tui::dial::DialState;
 use crate::tui::units::{read_number, sig, tick};
@@ -13,40 +14,41 @@ impl App {
     /// Whether keys are letters of a value.
     pub fn is_typing(&self) -> bool {
         let in_form = self
+            .choice
             .draft
             .as_ref()
             .is_some_and(|draft| draft.typed.is_some());
-        self.typing.is_some() || in_form
+        self.choice.typing.is_some() || in_form
     }
 
     /// Begins a value for the chosen knob, unless there is nothing to turn.
     pub(super) fn begin_typing(&mut self) -> Vec<Effect> {
-        let dial = &self.dials[self.chosen];
-        if let DialState::Dead(reason) = dial.life {
+        let dial = &self.choice.dials[self.choice.chosen];
+        if let DialState::Dead(reason) = dial.state {
             let line = format!(
                 "{}: the surface is {reason}, so there is nothing to turn",
                 dial.label
             );
             self.say(line);
         } else {
-            self.typing = Some(String::new());
+            self.choice.typing = Some(String::new());
         }
         Vec::new()
     }
 
     /// What keys do while a value is typed; `None`: none is, or it is no such key.
     pub(super) fn typed(&mut self, action: Action) -> Option<Vec<Effect>> {
-        let text = self.typing.as_mut()?;
+        let text = self.choice.typing.as_mut()?;
         match action {
             Action::Letter(letter) if text.chars().count() < LONGEST => text.push(letter),
             Action::Letter(_) => {}
             Action::Erase => drop(text.pop()),
-            Action::Close => self.typing = None,
+            Action::Close => self.choice.typing = None,
             Action::Enter => return Some(self.set_typed()),
             Action::Quit | Action::Suspend => return None,
             // A click elsewhere leaves it, and does what it does.
             _ => {
-                self.typing = None;
+                self.choice.typing = None;
                 return None;
             }
         }
@@ -55,15 +57,15 @@ impl App {
 
     /// Puts the knob where it was typed, or says in words what is wrong: knob, value, range.
     fn set_typed(&mut self) -> Vec<Effect> {
-        let Some(text) = self.typing.take() else {
+        let Some(text) = self.choice.typing.take() else {
             return Vec::new();
         };
-        let dial = &self.dials[self.chosen];
-        let unit = dial.unit(self.units);
+        let dial = &self.choice.dials[self.choice.chosen];
+        let unit = dial.unit(self.view.units);
         let value = read_number(&text).map(|shown| shown / unit.per_si);
         let range = dial.min..=dial.max;
         if let Some(value) = value.filter(|value| range.contains(value)) {
-            return self.set(self.chosen, value);
+            return self.set(self.choice.chosen, value);
         }
         let [from, to] = [dial.min, dial.max].map(|end| sig(unit.of(end), 3));
         let name = dial.name();
@@ -74,9 +76,9 @@ impl App {
 
     /// The last line while a value is typed.
     pub fn typing_line(&self) -> Option<String> {
-        let text = self.typing.as_ref()?;
-        let dial = &self.dials[self.chosen];
-        let unit = dial.unit(self.units);
+        let text = self.choice.typing.as_ref()?;
+        let dial = &self.choice.dials[self.choice.chosen];
+        let unit = dial.unit(self.view.units);
         let [from, to] = [dial.min, dial.max].map(|end| tick(unit.of(end)));
         Some(format!(
             "{} = {text}_  ({from} to {to} {}; Enter sets, Esc leaves)",
@@ -87,11 +89,11 @@ impl App {
 
     /// Puts a knob at the step that is nearest to a value, and chooses it.
     pub(super) fn go_to(&mut self, knob: Knob, value: f64) -> Vec<Effect> {
-        let Some(place) = self.dials.iter().position(|dial| dial.answers(knob)) else {
+        let Some(place) = self.choice.dials.iter().position(|dial| dial.answers(knob)) else {
             return Vec::new();
         };
-        self.chosen = place;
-        let value = self.dials[place].nearest(value);
+        self.choice.chosen = place;
+        let value = self.choice.dials[place].nearest(value);
         self.set(place, value)
     }
 }

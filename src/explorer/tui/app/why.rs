@@ -6,35 +6,13 @@
 //! The state before is the last that was simulated and had settled; the state now is the simulation's once it has
 //! settled there, and the formula's on both sides until then, which the sentence says.
 
-use super::{App, Leading};
+use super::data::{LifeAccount, SettledMean, StateBefore};
+use super::state::App;
 use crate::tui::dial::Dial;
+use crate::tui::kinds::Leading;
 use crate::tui::units::sig;
 use asperity_engine::physics::estimate::Factors;
 use asperity_engine::sim::{Frame, Knob};
-use asperity_session::run::Settled;
-
-/// What a state is told by, of the simulation or of the formula.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LifeAccount {
-    /// Contacts of the body that meets most in one loading cycle; `None`: a body stands.
-    pub n: Option<f64>,
-    /// Cycles, peaks, traction, load.
-    pub factors: Factors,
-    /// Mean film of the central part, m; 0: dry.
-    pub film_m: f64,
-    /// The body that governs: 1 or 2; 0: both alike.
-    pub body: u8,
-}
-
-/// A state before a knob was turned.
-#[derive(Debug, Clone)]
-pub struct StateBefore {
-    /// Where each knob was.
-    targets: Vec<f64>,
-    formula: LifeAccount,
-    /// `None`: it had not settled.
-    simulated: Option<LifeAccount>,
-}
 
 /// The sentence in parts, of which the last ones give way where there is no room.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,33 +25,6 @@ pub struct WhyLine {
     pub governs: String,
     /// Whose numbers these are.
     pub of: Leading,
-}
-
-/// Mean of a number over the frames since the life has settled: within a period it comes and goes.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct MeanFilm {
-    sum_m: f64,
-    frames: f64,
-}
-
-impl MeanFilm {
-    pub(super) fn add(&mut self, film_m: f64) {
-        self.sum_m += film_m;
-        self.frames += 1.0;
-    }
-
-    fn mean_m(self) -> Option<f64> {
-        (self.frames > 0.0).then(|| self.sum_m / self.frames)
-    }
-
-    /// Over one period of a passage that repeats.
-    fn of(settled: &Settled) -> Self {
-        let mut mean = Self::default();
-        for frame in &settled.frames {
-            mean.add(frame.metrics.h_mean_m);
-        }
-        mean
-    }
 }
 
 /// The larger of two numbers of contacts, and whose it is.
@@ -92,11 +43,11 @@ fn most(n: [Option<f64>; 2]) -> (Option<f64>, u8) {
 impl App {
     /// What the formula says where the knobs are going.
     fn formula_account(&self) -> LifeAccount {
-        let (n, body) = most([self.estimate.n_body_1, self.estimate.n_body_2]);
+        let (n, body) = most([self.lives.estimate.n_body_1, self.lives.estimate.n_body_2]);
         LifeAccount {
             n,
-            factors: self.estimate.formula,
-            film_m: self.loaded.film_m,
+            factors: self.lives.estimate.formula,
+            film_m: self.lives.loaded.film_m,
             body,
         }
     }
@@ -107,13 +58,20 @@ impl App {
             .frame()
             .filter(|_| self.leading() == Leading::Simulated)?;
         let life = frame.metrics.life?;
-        let held = self.held().filter(|held| held.frames.len() > 1);
-        let film = held.map_or(self.film, MeanFilm::of);
+        let settled = self.replay.settled.as_ref();
+        let settled = settled.filter(|settled| settled.frames.len() > 1);
+        let mut film = self.lives.film;
+        if let Some(settled) = settled {
+            film = SettledMean::default();
+            for frame in &settled.frames {
+                film.add(frame.metrics.h_mean_m);
+            }
+        }
         let (n, body) = most([frame.metrics.n_body_1, frame.metrics.n_body_2]);
         Some(LifeAccount {
             n,
             factors: self.leading_factors()?,
-            film_m: film.mean_m().unwrap_or(frame.metrics.h_mean_m),
+            film_m: film.value().unwrap_or(frame.metrics.h_mean_m),
             body: match life.detail.body {
                 0 => body,
                 governs => governs,
@@ -124,9 +82,9 @@ impl App {
     /// Keeps the state that a knob is turned away from; one that has not settled is none to compare with.
     pub(super) fn keep_before(&mut self) {
         let simulated = self.account();
-        if simulated.is_some() || self.before.is_none() {
-            self.before = Some(StateBefore {
-                targets: self.dials.iter().map(|dial| dial.target).collect(),
+        if simulated.is_some() || self.choice.before_turn.is_none() {
+            self.choice.before_turn = Some(StateBefore {
+                targets: self.choice.dials.iter().map(|dial| dial.target).collect(),
                 formula: self.formula_account(),
                 simulated,
             });
@@ -135,8 +93,8 @@ impl App {
 
     /// The accounts of the state before and of now, of one source.
     pub fn accounts(&self) -> Option<(LifeAccount, LifeAccount, Leading)> {
-        self.setup.scene.life.as_ref()?;
-        let before = self.before.as_ref()?;
+        self.run.setup.scene.life.as_ref()?;
+        let before = self.choice.before_turn.as_ref()?;
         match (before.simulated, self.account()) {
             (Some(then), Some(now)) => Some((then, now, Leading::Simulated)),
             _ => Some((before.formula, self.formula_account(), Leading::Formula)),
@@ -146,8 +104,8 @@ impl App {
     /// What the last turn of a knob changed; `None`: none was turned.
     pub fn why(&self) -> Option<WhyLine> {
         let (then, now, of) = self.accounts()?;
-        let before = self.before.as_ref()?;
-        let places = self.dials.iter().zip(&before.targets);
+        let before = self.choice.before_turn.as_ref()?;
+        let places = self.choice.dials.iter().zip(&before.targets);
         let away = places.filter(|(dial, then)| (dial.target - **then).abs() > 1e-9 * then.abs());
         let turned: Vec<String> = away.map(|(dial, then)| self.turned(dial, *then)).collect();
         if turned.is_empty() {
@@ -166,7 +124,7 @@ impl App {
 
     /// `S 0.50→1.00`, `load 800→1600 N`.
     fn turned(&self, dial: &Dial, then: f64) -> String {
-        let unit = dial.unit(self.units);
+        let unit = dial.unit(self.view.units);
         let shown = |value: f64| match dial.knob {
             Knob::SlideRoll => format!("{value:.2}"),
             _ => sig(unit.of(value), 3),
@@ -183,12 +141,12 @@ impl App {
 
     /// What a frame adds to the mean of the settled state.
     pub(super) fn take_film(&mut self, frame: &Frame) {
-        let moving = self.dials.iter().any(Dial::is_moving);
+        let moving = self.choice.dials.iter().any(Dial::is_moving);
         let settled = frame.metrics.life.is_some_and(|life| life.settled);
         if settled && !moving {
-            self.film.add(frame.metrics.h_mean_m);
+            self.lives.film.add(frame.metrics.h_mean_m);
         } else {
-            self.film = MeanFilm::default();
+            self.lives.film = SettledMean::default();
         }
     }
 }

@@ -201,17 +201,17 @@ impl LessonMeasure {
 pub struct Claim {
     /// Which number: it is shown beside the caption.
     pub measure: LessonMeasure,
-    /// Least value.
-    pub least: f64,
-    /// Greatest value.
-    pub most: f64,
+    /// Minimum value.
+    pub min: f64,
+    /// Maximum value.
+    pub max: f64,
 }
 
 impl Claim {
     /// Whether a frame bears it out; what a frame does not know bears nothing out.
     pub fn holds(&self, frame: &Frame, before: Option<&Frame>) -> bool {
         let value = self.measure.value(frame, before);
-        value.is_some_and(|value| (self.least..=self.most).contains(&value))
+        value.is_some_and(|value| (self.min..=self.max).contains(&value))
     }
 }
 

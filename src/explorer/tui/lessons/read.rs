@@ -7,9 +7,9 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::figure::{Claim, ComparedWith, LessonFigure, LessonMeasure, LessonQuestion};
-use super::{Beat, KnobSetting, Lesson, Staging, reached};
-use crate::tui::app::{MapKind, PanelKind, PointQuantity};
+use super::{Beat, KnobSetting, Lesson, Staging};
 use crate::tui::dial::{Dial, dials};
+use crate::tui::kinds::{MapKind, PanelKind, PointQuantity};
 use asperity_engine::files::read_up_to;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Knob, SceneError, presets};
@@ -97,13 +97,13 @@ impl Lesson {
     /// Key, value and what is allowed; of a text that is no TOML line and column.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         let name = path.display().to_string();
-        let told = |reason: String| SceneError::value("--lesson", &name, reason);
+        let refusal = |reason: String| SceneError::value("--lesson", &name, reason);
         let bytes = read_up_to(path, LONGEST_LESSON)
-            .map_err(|error| told(format!("a lesson's file ({error})")))?;
+            .map_err(|error| refusal(format!("a lesson's file ({error})")))?;
         if bytes.len() as u64 > LONGEST_LESSON {
-            return Err(told("a file of at most 256 KiB".to_owned()));
+            return Err(refusal("a file of at most 256 KiB".to_owned()));
         }
-        let text = String::from_utf8(bytes).map_err(|_| told("UTF-8 text".to_owned()))?;
+        let text = String::from_utf8(bytes).map_err(|_| refusal("UTF-8 text".to_owned()))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut lesson = Self::from_toml(&text, &name)?;
         for staging in lesson
@@ -166,7 +166,7 @@ impl Lesson {
                 let Some(dial) = here.iter().find(|dial| dial.answers(*knob)) else {
                     return refused(at("knobs"), knob.key(), "a knob of the scene");
                 };
-                reached(dial, setting.value(dial))?;
+                dial.checked(setting.value(dial))?;
             }
         }
         Ok(())
@@ -302,24 +302,15 @@ impl BeatReader {
 
     fn claim(&self, file: &ClaimFile) -> LessonRead<Claim> {
         let measure = self.measure("claims", &file.of, file.over.as_deref())?;
-        let (least, most) = (
-            file.from.unwrap_or(f64::NEG_INFINITY),
-            file.to.unwrap_or(f64::INFINITY),
-        );
-        let bounded = least.is_finite() || most.is_finite();
-        if !(bounded && least <= most) {
-            let found = format!("from {least} to {most}");
-            return refused(
-                self.key("claims"),
-                found,
-                "from <= to, at least one of them",
-            );
+        let min = file.from.unwrap_or(f64::NEG_INFINITY);
+        let max = file.to.unwrap_or(f64::INFINITY);
+        let is_bounded = min.is_finite() || max.is_finite();
+        if !(is_bounded && min <= max) {
+            let found = format!("from {min} to {max}");
+            let allowed = "from <= to, at least one of them";
+            return refused(self.key("claims"), found, allowed);
         }
-        Ok(Claim {
-            measure,
-            least,
-            most,
-        })
+        Ok(Claim { measure, min, max })
     }
 
     fn question(&self, file: QuestionFile) -> LessonRead<LessonQuestion> {

@@ -5,15 +5,10 @@ use std::io::{self, ErrorKind};
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
-use ratatui::layout::Rect;
-
-use super::canvas::Canvas;
 use super::{Input, Panics, Screen};
 use crate::tui::event::ScreenEvent;
 use crate::tui::explorer::{Control, Explorer};
-use crate::tui::pixels::Pixels;
 use crate::tui::theme::{Capabilities, Contrast, Theme};
-use crate::tui::view;
 use crate::tui::wiring::{TuiError, Wiring};
 use asperity_session::run::Command;
 
@@ -21,8 +16,6 @@ use asperity_session::run::Command;
 const FRAME_TIME: Duration = Duration::from_millis(25);
 /// Least pause between two drawings, for a terminal that is slower.
 const LEAST_WAIT: Duration = Duration::from_millis(5);
-/// Time from one picture to the next on a slow line, unless a key asks for one.
-const SLOW_FRAME_TIME: Duration = Duration::from_millis(500);
 
 /// Shows the explorer until the user quits, the process is asked to end, or the terminal fails.
 ///
@@ -41,7 +34,6 @@ pub fn explore(wiring: Wiring) -> Result<(), TuiError> {
     let mut theme = Theme::new(Capabilities::detect(variable));
     theme.contrast = Contrast::detect(variable);
     let mut explorer = Explorer::new(wiring, theme);
-    explorer.app.set_pixels(Pixels::detect(variable));
     let panics = Panics::watch();
     let result = Screen::enter().and_then(|stage| {
         let input = Input::listen()?;
@@ -49,8 +41,6 @@ pub fn explore(wiring: Wiring) -> Result<(), TuiError> {
             stage,
             explorer: &mut explorer,
             panics: &panics,
-            canvas: Canvas::default(),
-            due: Instant::now(),
         };
         let control = show.explorer.teach_asked();
         let shown = show.follow(control).and_then(|_| show.go_on(&input));
@@ -67,9 +57,6 @@ struct Show<'a> {
     stage: Screen,
     explorer: &'a mut Explorer,
     panics: &'a Panics,
-    canvas: Canvas,
-    /// When a slow line gets the next picture.
-    due: Instant,
 }
 
 impl Show<'_> {
@@ -86,7 +73,7 @@ impl Show<'_> {
             self.follow(control)?;
             last = now;
             let began = Instant::now();
-            self.draw()?;
+            self.stage.draw(&self.explorer.app)?;
             let drawn = Instant::now();
             // Drawing counts: frames come every FRAME_TIME, not so long after each other.
             let mut wait = FRAME_TIME.saturating_sub(drawn - began).max(LEAST_WAIT);
@@ -119,36 +106,8 @@ impl Show<'_> {
         }
     }
 
-    /// One picture; on a slow line what has not come of the last one, until the next is due.
-    fn draw(&mut self) -> io::Result<()> {
-        let line = self.stage.terminal.backend_mut();
-        if line.is_slow() {
-            let now = Instant::now();
-            if now < self.due {
-                return line.send();
-            }
-            self.due = now + SLOW_FRAME_TIME;
-            // Pixels are far too many bytes.
-            self.explorer.app.set_pixels(Pixels::Blocks);
-        }
-        let app = &self.explorer.app;
-        let size = self.stage.terminal.size()?;
-        let screen = Rect::new(0, 0, size.width, size.height);
-        if self.canvas.must_clear(app, screen) {
-            self.stage.clear()?;
-        }
-        let drawn = self.stage.terminal.draw(|frame| view::draw(app, frame))?;
-        self.canvas.show(app, drawn.buffer)
-    }
-
     fn take_event(&mut self, event: ScreenEvent) -> io::Result<Control> {
-        if event == ScreenEvent::Resize {
-            self.canvas.forget();
-        }
-        self.due = Instant::now();
-        let size = self.stage.terminal.size()?;
-        let screen = Rect::new(0, 0, size.width, size.height);
-        let control = self.explorer.take_event(event, screen);
+        let control = self.explorer.take_event(event, Screen::area()?);
         self.follow(control)
     }
 
@@ -157,10 +116,7 @@ impl Show<'_> {
         match control {
             Control::Go | Control::Stop => {}
             Control::Anew => self.panics.another_run(),
-            Control::Suspend => {
-                self.canvas.forget();
-                self.stage.suspend()?;
-            }
+            Control::Suspend => self.stage.suspend()?,
         }
         Ok(control)
     }

@@ -34,7 +34,7 @@ impl Caption {
 
 /// What is to be said, if anything.
 pub(super) fn of(app: &App) -> Option<Caption> {
-    if let Some(tour) = &app.tour {
+    if let Some(tour) = &app.lesson.tour {
         let lesson = &tour.lesson;
         let figures = match tour.phase {
             TourPhase::Asks => String::new(),
@@ -44,7 +44,7 @@ pub(super) fn of(app: &App) -> Option<Caption> {
             title: format!(
                 "{}/{} {} ({}/{})",
                 tour.place + 1,
-                app.lessons.len(),
+                app.lesson.all.len(),
                 lesson.title,
                 tour.beat + 1,
                 lesson.beats.len()
@@ -102,7 +102,7 @@ fn verdict(
     let (Some(frame), Some(right)) = (app.frame(), found.right) else {
         return ("This scene does not know it.".to_owned(), Role::Warn);
     };
-    let value = question.measure.shown(found.value, app.units, frame);
+    let value = question.measure.shown(found.value, app.view.units, frame);
     let name = question.measure.symbol();
     let answer = |place: usize| question.answers.get(place).map_or("", String::as_str);
     let is = format!("{name} {value}, \u{201c}{}\u{201d}.", answer(right));
@@ -124,7 +124,7 @@ fn figures(app: &App, tour: &TourState) -> String {
     };
     let shown = |claim: &Claim| {
         let value = claim.measure.value(frame, tour.before.as_deref());
-        let value = claim.measure.shown(value, app.units, frame);
+        let value = claim.measure.shown(value, app.view.units, frame);
         format!("   {} {value}", claim.measure.symbol())
     };
     tour.beat().claims.iter().map(shown).collect()
@@ -150,7 +150,8 @@ fn letters(beat: &Beat) -> usize {
 fn scripted(app: &App) -> Option<&str> {
     let frame = app.frame()?;
     let fresh_s = 2.0 * frame.a_m / frame.metrics.entrainment_m_s.abs().max(1e-9);
-    app.setup
+    app.run
+        .setup
         .scene
         .events
         .iter()
@@ -160,7 +161,7 @@ fn scripted(app: &App) -> Option<&str> {
 }
 
 pub(super) fn render(app: &App, caption: &Caption, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let edge = Symbol::new(theme, "▌", "|", Role::Key);
     area.rows()
         .for_each(|row| edge.draw(row.as_position(), buffer));

@@ -47,7 +47,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
 fn heading(app: &App, areas: &Areas) -> Line<'static> {
     /// Columns of the whole.
     const WHOLE: u16 = 37;
-    let theme = app.theme;
+    let theme = app.view.theme;
     let name = match areas.centre_line.width {
         ..WHOLE => "y = 0",
         _ => "centre line",
@@ -68,20 +68,20 @@ fn heading(app: &App, areas: &Areas) -> Line<'static> {
 fn x_range(app: &App, frame: &Frame) -> [f64; 2] {
     let end = (frame.x_min_m + (frame.nx.max(2) - 1) as f64 * frame.dx_m) / frame.a_m;
     let start = frame.x_min_m / frame.a_m;
-    match app.zoom {
+    match app.view.zoom {
         Zoom::Contact => [start.max(-1.6), end.min(1.4)],
         Zoom::Domain => [start, end],
     }
 }
 
 fn curves(app: &App, frame: &Frame, plot: Plot, buffer: &mut Buffer) -> Option<PixelPlot> {
-    let pen = |role: Role, letter: char| Pen::new(app.theme, role, letter);
-    let hertz = frame.p_hertz_pa / app.reached.pressure_pa.max(1.0);
+    let pen = |role: Role, letter: char| Pen::new(app.view.theme, role, letter);
+    let hertz = frame.p_hertz_pa / app.run.axis_ends.pressure_pa.max(1.0);
     let mut chart = CurvePanel::new(plot);
     chart.hertz(hertz, pen(Role::Hertz, '.'));
-    let film = row(frame, &frame.film_m, app.reached.film_m);
+    let film = row(frame, &frame.film_m, app.run.axis_ends.film_m);
     chart.line(film, pen(Role::Film, 'h'));
-    let pressure = row(frame, &frame.pressure_pa, app.reached.pressure_pa);
+    let pressure = row(frame, &frame.pressure_pa, app.run.axis_ends.pressure_pa);
     chart.line(pressure, pen(Role::Pressure, 'p'));
     if let Some(point) = &frame.material_point {
         chart.upright(point.x_m / frame.a_m, pen(Role::Dim, ':'));
@@ -110,8 +110,8 @@ fn row<'a>(
 
 /// Pressure at the left, film at the right, x/a below.
 fn axes(app: &App, inner: Rect, plot: &Plot, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let (pressure, film) = (app.units.pressure(), app.units.film());
+    let theme = app.view.theme;
+    let (pressure, film) = (app.view.units.pressure(), app.view.units.film());
     let left = columns(inner, 0, AXIS - 1);
     let right = columns_from(inner, inner.width - AXIS + 1);
     let last = plot.area.height - 1;
@@ -119,9 +119,9 @@ fn axes(app: &App, inner: Rect, plot: &Plot, buffer: &mut Buffer) {
     let has_middle = plot.area.height >= 7 && last.is_multiple_of(2);
     let middle = has_middle.then_some((last / 2, 0.5));
     for (row, part) in [(0, 1.0), (last, 0.0)].into_iter().chain(middle) {
-        let p = tick(pressure.of(app.reached.pressure_pa * part));
+        let p = tick(pressure.of(app.run.axis_ends.pressure_pa * part));
         put_right(left, row, &theme.line(p, Role::Pressure), buffer);
-        let h = tick(film.of(app.reached.film_m * part));
+        let h = tick(film.of(app.run.axis_ends.film_m * part));
         put(right, row, &theme.line(h, Role::Film), buffer);
     }
     let foot = last + 1;

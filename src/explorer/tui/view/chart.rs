@@ -243,11 +243,11 @@ impl CurvePanel {
     /// Draws the curves, or leaves them to the page; cells that no curve passes through stay as they are.
     pub(super) fn render(&self, app: &App, buffer: &mut Buffer) -> Option<PixelPlot> {
         let area = self.plot.area;
-        if app.is_in_lines() {
+        if app.is_in_pixels() {
             let curves = self.curves.iter().map(Curve::in_pixels).collect();
             return Some(PixelPlot { area, curves });
         }
-        self.draw(app.theme.is_ascii(), buffer);
+        self.draw(app.view.theme.is_ascii(), buffer);
         None
     }
 

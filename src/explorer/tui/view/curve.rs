@@ -51,7 +51,7 @@ fn draw(
 ) -> (Rect, Option<PixelPlot>) {
     /// Columns of the numbers left of it.
     const AXIS: u16 = 5;
-    let theme = app.theme;
+    let theme = app.view.theme;
     let pen = |role: Role, letter: char| Pen::new(theme, role, letter);
     heading(app, figure, area, buffer);
     let below = columns_from(rows_from(area, 1), AXIS);
@@ -89,7 +89,7 @@ fn draw(
 
 /// Its name and what the marks mean, and how far a sweep is: in the corner, or below it.
 fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let legend = |words: [&'static str; 2]| {
         let mut spans = vec![
             theme.span("y ", Role::Key),
@@ -111,7 +111,9 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
         legend(["form. ", "sim. "])
     };
     put(area, 0, &heading, buffer);
-    let Some((done, all)) = app.sweep else { return };
+    let Some((done, all)) = app.lives.sweep else {
+        return;
+    };
     let text = format!("{}{done}/{all}", theme.pick("↻ ", "@ "));
     let line = theme.line(text, Role::Warn);
     let has_room = (heading.width() + line.width()) as u16 <= area.width;
@@ -122,8 +124,8 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
 fn history(app: &App, area: Rect, buffer: &mut Buffer) -> Option<PixelPlot> {
     /// Half of the minimum range, decades: noise stays small.
     const MIN_HALF: f64 = 0.17;
-    let theme = app.theme;
-    let (first, last) = (app.history.front()?, app.history.back()?);
+    let theme = app.view.theme;
+    let (first, last) = (app.lives.history.front()?, app.lives.history.back()?);
     let span = last.passages - first.passages;
     let unit = if area.width >= 27 { " of 4a" } else { "" };
     let heading = Line::from(vec![
@@ -135,7 +137,7 @@ fn history(app: &App, area: Rect, buffer: &mut Buffer) -> Option<PixelPlot> {
     if span <= 0.0 || area.is_empty() {
         return None;
     }
-    let samples = app.history.iter();
+    let samples = app.lives.history.iter();
     let points = samples.map(|sample| (sample.passages, sample.life_relative.log10()));
     let decades = points.clone().map(|(_, decade)| decade);
     let (low, high) = (

@@ -35,7 +35,7 @@ impl FooterKey {
 pub(super) fn hints_shown(app: &App, room: Rect) -> Vec<FooterKey> {
     let mut hints = hints(app);
     let taken: usize = hints.iter().map(FooterKey::width).sum();
-    if !app.setup.left_out.is_empty() && app.typing.is_none() {
+    if !app.run.setup.left_out.is_empty() && app.choice.typing.is_none() {
         let free = usize::from(room.width).saturating_sub(taken);
         hints.push(FooterKey::new("i", &left_out(app, free), Action::Plan));
     }
@@ -68,9 +68,10 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
 
 /// What the plan leaves out: all of it where it fits, else how much.
 fn left_out(app: &App, room: usize) -> String {
-    let left_out = &app.setup.left_out;
+    let left_out = &app.run.setup.left_out;
     let stages: Vec<&str> = left_out.iter().map(|left| left.stage).collect();
     let all = app
+        .view
         .theme
         .words(&format!("not computed: {}", stages.join(", ")));
     if all.chars().count() + 4 <= room {
@@ -83,18 +84,22 @@ fn left_out(app: &App, room: usize) -> String {
 /// What can be done now: by what is open, asked, typed or large, and then by the panel that the keys speak of.
 fn hints(app: &App) -> Vec<FooterKey> {
     let key = FooterKey::new;
-    let enter = app.theme.pick("⏎", "Enter");
+    let enter = app.view.theme.pick("⏎", "Enter");
     if app.is_typing() {
         let leave = key("Esc", "leave it", Action::Close);
         return vec![key(enter, "set", Action::Enter), leave];
     }
-    match app.overlay {
+    match app.view.overlay {
         Overlay::Lessons => {
             let close = key("t", "close", Action::Lessons);
             return vec![key(enter, "begin", Action::Enter), close];
         }
         Overlay::Scene => {
-            let is_point = app.draft.as_ref().is_some_and(|d| d.form == Form::Point);
+            let is_point = app
+                .choice
+                .draft
+                .as_ref()
+                .is_some_and(|d| d.form == Form::Point);
             let (own, other) = (key("e", "scene", Action::Scene), Action::OperatingPoint);
             let other = key("E", "operating point", other);
             return vec![
@@ -109,24 +114,24 @@ fn hints(app: &App) -> Vec<FooterKey> {
     }
     let quit = key("q", "quit", Action::Quit);
     let mut hints = vec![key("?", "keys", Action::Help), quit];
-    if app.tour.is_some() {
+    if app.lesson.tour.is_some() {
         hints.push(key("n", "go on", Action::NextBeat));
         hints.push(key("N", "back", Action::PreviousBeat));
         hints.push(key("T", "end lesson", Action::EndTour));
     }
-    if app.enlarged.is_some() {
+    if app.view.enlarged.is_some() {
         hints.push(key("Esc", "all panels", Action::Close));
     }
-    let pause = match (&app.replay, app.pace) {
+    let pause = match (&app.replay.playing, app.run.pace) {
         (Some(_), _) => key("o", "live", Action::Replay),
         (None, RunPace::Paused) => key("space", "go on", Action::TogglePause),
         (None, RunPace::Running) => key("space", "pause", Action::TogglePause),
     };
-    let pin = match app.pinned {
+    let pin = match app.view.pinned {
         Some(_) => "release",
         None => "freeze",
     };
-    let own = match app.focus {
+    let own = match app.view.focus {
         PanelKind::Knobs => key("=", "type", Action::Type),
         PanelKind::Map => key("m", "map", Action::NextMap),
         PanelKind::CentreLine => key("z", "zoom", Action::Zoom),
@@ -134,7 +139,7 @@ fn hints(app: &App) -> Vec<FooterKey> {
         PanelKind::Point => key("p", "trace", Action::PointQuantity),
     };
     hints.extend([pause, key("b", pin, Action::Pin), own]);
-    if app.tour.is_none() {
+    if app.lesson.tour.is_none() {
         hints.push(key("t", "lessons", Action::Lessons));
         hints.push(key("e", "scene", Action::Scene));
     }
@@ -145,8 +150,8 @@ fn hints(app: &App) -> Vec<FooterKey> {
 }
 
 pub(super) fn recorder(app: &App) -> Line<'static> {
-    let theme = app.theme;
-    let Some(recorder) = &app.status.recorder else {
+    let theme = app.view.theme;
+    let Some(recorder) = &app.run.status.recorder else {
         return theme.line("not recording ", Role::Dim);
     };
     let (word, role) = match recorder.activity {

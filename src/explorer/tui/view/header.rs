@@ -14,7 +14,7 @@ use asperity_engine::physics::estimate::speed_ratios;
 use asperity_engine::sim::{LubricationRegime, Stage, named};
 
 pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let numbers = numbers(app, area.width);
     put_right(area, 0, &numbers, buffer);
     let room = area.width.saturating_sub(numbers.width() as u16 + 1);
@@ -34,24 +34,25 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 fn title(app: &App) -> String {
     let away = |dial: &&Dial| (dial.target - dial.home).abs() > 1e-6 * dial.home.abs();
     let changed = app
+        .choice
         .dials
         .iter()
         .filter(|dial| away(dial) || dial.is_moving());
     let changed: Vec<&str> = changed.map(Dial::name).collect();
     if changed.is_empty() {
-        return app.setup.scene.title.clone();
+        return app.run.setup.scene.title.clone();
     }
-    format!("{}, changed: {}", app.setup.name, changed.join(", "))
+    format!("{}, changed: {}", app.run.setup.name, changed.join(", "))
 }
 
 /// What the run does, as a shape, a word and a colour.
 fn state(app: &App) -> (&'static str, String, Role) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let (back, _) = app.rewound();
     if back > 0 {
         return (theme.pick("◀ ", "< "), format!("{back} back"), Role::Warn);
     }
-    if app.replay.is_some() && app.status.health == Health::Running {
+    if app.replay.playing.is_some() && app.run.status.health == Health::Running {
         let word = if app.replay_stands() {
             "replay, held"
         } else {
@@ -59,7 +60,7 @@ fn state(app: &App) -> (&'static str, String, Role) {
         };
         return (theme.pick("↻ ", "@ "), word.into(), Role::Good);
     }
-    match (&app.status.health, app.pace) {
+    match (&app.run.status.health, app.run.pace) {
         (Health::Failed(_), _) => (theme.pick("✖ ", "! "), "failed".into(), Role::Bad),
         (Health::Finished, _) => (theme.pick("■ ", "# "), "done".into(), Role::Good),
         (Health::Running, RunPace::Paused) => (theme.pick("‖ ", "= "), "paused".into(), Role::Warn),
@@ -74,12 +75,12 @@ fn state(app: &App) -> (&'static str, String, Role) {
 const ROOMY: u16 = 76;
 
 fn numbers(app: &App, width: u16) -> Line<'static> {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let Some(frame) = app.frame() else {
         return Line::default();
     };
     let metrics = &frame.metrics;
-    let p_hertz = app.units.show(const { named("p_hertz_pa") }, frame, 3);
+    let p_hertz = app.view.units.show(const { named("p_hertz_pa") }, frame, 3);
     let n = match (metrics.n_body_1, metrics.n_body_2) {
         (Some(first), Some(second)) => sig(first.max(second), 3),
         _ => theme.pick("∞", "inf").to_owned(),

@@ -21,10 +21,10 @@ use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::Knob;
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let heading = title(theme, theme.pick("↑↓←→", "hjkl"), "knobs");
     let inner = panel(app, areas, PanelKind::Knobs, heading, buffer);
-    for (place, dial) in app.dials.iter().enumerate() {
+    for (place, dial) in app.choice.dials.iter().enumerate() {
         let slot = slot(areas, place);
         if slot.is_empty() {
             break;
@@ -38,7 +38,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
             typical(app, dial, slot, buffer);
         }
     }
-    let used = app.dials.len() as u16 * rows_each(areas);
+    let used = app.choice.dials.len() as u16 * rows_each(areas);
     if inner.height > used + 3 {
         speeds::speeds(app, rows_from(inner, used + 1), buffer);
     }
@@ -46,7 +46,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
 
 /// The knob under a place.
 pub(super) fn under(app: &App, areas: &Areas, at: Position) -> Option<usize> {
-    (0..app.dials.len()).find(|place| slot(areas, *place).contains(at))
+    (0..app.choice.dials.len()).find(|place| slot(areas, *place).contains(at))
 }
 
 /// A press: on the slider's row or below it moves the slider (a finger is wider than a row), on the name it chooses the
@@ -63,8 +63,8 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
 /// A drag moves the chosen slider for as long as it stays within the panel's columns.
 pub(super) fn dragged(app: &App, areas: &Areas, at: Position) -> Option<Action> {
     let inside = areas.knobs.contains(at);
-    let track = track(slot(areas, app.chosen));
-    (inside && !track.is_empty()).then(|| Action::Slide(app.chosen, fraction(track, at.x)))
+    let track = track(slot(areas, app.choice.chosen));
+    (inside && !track.is_empty()).then(|| Action::Slide(app.choice.chosen, fraction(track, at.x)))
 }
 
 fn fraction(track: Rect, column: u16) -> f64 {
@@ -78,8 +78,8 @@ const WIDE: u16 = 60;
 
 /// `3 0.10 micropitting_rig`: the digits, where they go, and what that is typical of.
 fn typical(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let unit = dial.unit(app.units);
+    let theme = app.view.theme;
+    let unit = dial.unit(app.view.units);
     let room = columns_from(slot, 1);
     let mut line = Line::default();
     for (n, (value, of)) in dial.typical.iter().enumerate() {
@@ -119,9 +119,9 @@ fn track(slot: Rect) -> Rect {
 }
 
 fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let value = value_line(app, dial);
-    let chosen = place == app.chosen;
+    let chosen = place == app.choice.chosen;
     let room = slot.width.saturating_sub(value.width() as u16 + 1);
     let mark = if chosen { theme.pick("▸", ">") } else { " " };
     let role = if chosen { Role::Chosen } else { Role::Text };
@@ -139,11 +139,11 @@ fn name_and_value(app: &App, place: usize, dial: &Dial, slot: Rect, buffer: &mut
 
 /// `0.30 → 0.50` on the way, `0.50` there.
 fn value_line(app: &App, dial: &Dial) -> Line<'static> {
-    let theme = app.theme;
-    if let DialState::Dead(reason) = dial.life {
+    let theme = app.view.theme;
+    if let DialState::Dead(reason) = dial.state {
         return theme.line(reason, Role::Dim);
     }
-    let unit = dial.unit(app.units);
+    let unit = dial.unit(app.view.units);
     let digits = if dial.knob == Knob::SlideRoll { 2 } else { 3 };
     let target = figure(dial, unit.of(dial.target), digits);
     let mut line = Line::default();
@@ -174,14 +174,14 @@ fn slider(app: &App, place: usize, dial: &Dial, track: Rect, buffer: &mut Buffer
     if track.is_empty() {
         return;
     }
-    let theme = app.theme;
+    let theme = app.view.theme;
     let last = f64::from(track.width - 1);
     let column = |value: f64| (dial.fraction(value) * last).round() as u16;
     let (now, target) = (column(dial.now), column(dial.target));
     // S has its zero in the middle; other sliders fill from the left.
     let root = if dial.min < 0.0 { column(0.0) } else { 0 };
-    let dead = dial.life != DialState::Live;
-    let filled = if place == app.chosen {
+    let dead = dial.state != DialState::Live;
+    let filled = if place == app.choice.chosen {
         Role::Chosen
     } else {
         Role::Film
@@ -210,15 +210,15 @@ fn slider(app: &App, place: usize, dial: &Dial, track: Rect, buffer: &mut Buffer
 
 /// Range of the slider; for the load the Hertz pressure, as that is what one thinks in.
 fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let unit = dial.unit(app.units);
-    if dial.life != DialState::Live {
+    let theme = app.view.theme;
+    let unit = dial.unit(app.view.units);
+    if dial.state != DialState::Live {
         return;
     }
     let is_load = dial.knob.is_load();
     let stands = standing(dial.target).filter(|_| dial.knob == Knob::SlideRoll);
     if let Some(body) = stands {
-        let left_out = app.setup.scene.life.as_ref();
+        let left_out = app.run.setup.scene.life.as_ref();
         let left_out = left_out.is_some_and(|life| life.cycles != CycleBasis::Damage);
         let more = match slot.width {
             28.. if left_out => ": not in the life",
@@ -234,7 +234,11 @@ fn range(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
         put_right(slot, 2, &to, buffer);
     }
     if is_load {
-        let p_hertz = app.units.pressure().show(app.estimate.p_hertz_pa, 3);
+        let p_hertz = app
+            .view
+            .units
+            .pressure()
+            .show(app.lives.estimate.p_hertz_pa, 3);
         let text = theme.line(format!("p_h {p_hertz}"), Role::Pressure);
         put_middle(slot, 2, &text, buffer);
     }

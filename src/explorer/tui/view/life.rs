@@ -33,13 +33,13 @@ pub(super) fn render(
     areas: &Areas,
     buffer: &mut Buffer,
 ) -> (Option<Rect>, Vec<PixelPlot>) {
-    let heading = title(app.theme, "", number::name(app, areas));
+    let heading = title(app.view.theme, "", number::name(app, areas));
     let mut inner = panel(app, areas, PanelKind::Life, heading, buffer);
     if areas.density == PanelSpacing::Full {
         inner = inner.inner(Margin::new(1, 0));
     }
     let mut rows = RowAllotment { rest: inner };
-    if app.setup.scene.life.is_none() {
+    if app.run.setup.scene.life.is_none() {
         return without_life(app, &mut rows, buffer);
     }
     let roomy = inner.height >= 20;
@@ -57,11 +57,11 @@ pub(super) fn render(
     }
     bars::mechanisms(app, &mut rows, buffer);
     if roomy {
-        bars::waterfall_ends(app.theme, rows.take(1), buffer);
+        bars::waterfall_ends(app.view.theme, rows.take(1), buffer);
     }
     counts::counts(app, &mut rows, buffer);
     counts::other_count(app, &mut rows, buffer);
-    if app.pinned.is_some() {
+    if app.view.pinned.is_some() {
         counts::comparison(app, &mut rows, buffer);
     }
     curve::render(app, rows.rest, buffer)
@@ -74,7 +74,12 @@ fn without_life(
     buffer: &mut Buffer,
 ) -> (Option<Rect>, Vec<PixelPlot>) {
     for text in ["no life in this scene", "(no [life] table)"] {
-        put(rows.take(1), 0, &app.theme.line(text, Role::Dim), buffer);
+        put(
+            rows.take(1),
+            0,
+            &app.view.theme.line(text, Role::Dim),
+            buffer,
+        );
     }
     validity::line(app, rows.take(1), buffer);
     rows.take(1);

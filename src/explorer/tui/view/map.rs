@@ -32,13 +32,13 @@ use raster::{MapWindow, Raster, rasterize, rasterize_lines};
 const BAR: u16 = 8;
 
 pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<PixelPlot> {
-    let (theme, title) = (app.theme, heading(app, areas));
+    let (theme, title) = (app.view.theme, heading(app, areas));
     let inner = panel(app, areas, PanelKind::Map, title, buffer);
     let Some(frame) = app.frame() else {
         waiting(app, inner, buffer);
         return None;
     };
-    if app.map == MapKind::Profile {
+    if app.view.map == MapKind::Profile {
         return profile::side_view(app, frame, inner, buffer);
     }
     let look = look(app);
@@ -53,7 +53,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
         Some(_) if app.is_in_pixels() => {}
         Some(raster) => {
             let painter = MapPainter {
-                kind: app.map,
+                kind: app.view.map,
                 look: &look,
                 window,
                 raster: &raster,
@@ -66,7 +66,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
         }
     }
     if !app.is_in_pixels() {
-        let marks = [(point_at(app, frame), "◆"), (app.probe, "╋")];
+        let marks = [(point_at(app, frame), "◆"), (app.view.probe, "╋")];
         for (at, symbol) in marks {
             if let Some(part) = at.and_then(|(x, y)| window.part(x, y)) {
                 mark(theme, image, part, symbol, buffer);
@@ -74,7 +74,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
         }
     }
     axes::draw(app, frame, window, image, inner, buffer);
-    color_bar(theme, &look, app.map, room.bar, buffer);
+    color_bar(theme, &look, app.view.map, room.bar, buffer);
     motion(app, frame, areas, inner, buffer);
     probe(app, frame, &room, buffer);
     None
@@ -83,7 +83,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
 /// The cells that the map fills.
 pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
     let frame = app.frame()?;
-    let area = match app.map {
+    let area = match app.view.map {
         MapKind::Profile => profile::rooms(areas.inside(PanelKind::Map)).0,
         _ => MapRoom::of(app, frame, areas).image,
     };
@@ -94,13 +94,13 @@ pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
 pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitmap> {
     let frame = app.frame()?;
     let area = room(app, areas)?;
-    if app.map == MapKind::Profile {
+    if app.view.map == MapKind::Profile {
         return profile::in_pixels(app, frame, area, cell);
     }
     let MapRoom { window, .. } = MapRoom::of(app, frame, areas);
     let raster = picture_of(app, frame, &window, Bitmap::size(area, cell))?;
     let painter = MapPainter {
-        kind: app.map,
+        kind: app.view.map,
         look: &look(app),
         window: &window,
         raster: &raster,
@@ -108,7 +108,7 @@ pub(super) fn pixels(app: &App, areas: &Areas, cell: (u16, u16)) -> Option<Bitma
     let mut picture = Bitmap::of(area, cell, |column, row| painter.rgba(column, row));
     let marks = [
         (point_at(app, frame), MapMark::Diamond),
-        (app.probe, MapMark::Cross),
+        (app.view.probe, MapMark::Cross),
     ];
     for (at, mark) in marks {
         if let Some(part) = at.and_then(|(x, y)| window.part(x, y)) {
@@ -125,9 +125,9 @@ fn picture_of(
     window: &MapWindow,
     pixels: (usize, usize),
 ) -> Option<Raster> {
-    let subject = app.map.subject();
+    let subject = app.view.map.subject();
     let picture = Picture::of(frame, subject, &app.ranges())?;
-    if !app.map.is_over_time() {
+    if !app.view.map.is_over_time() {
         return rasterize(&picture, window, pixels);
     }
     let span = app.waves()?;
@@ -139,7 +139,7 @@ fn picture_of(
 /// A press on the picture reads it there.
 pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
     let frame = app.frame()?;
-    if app.map == MapKind::Profile {
+    if app.view.map == MapKind::Profile {
         let profile = profile::of(app, frame)?;
         let (area, _) = profile::rooms(areas.inside(PanelKind::Map));
         let across = at.x >= area.x && at.x < area.right() && areas.map.contains(at);
@@ -158,8 +158,8 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
 }
 
 fn waiting(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let text = match app.setup.scene.lubricant {
+    let theme = app.view.theme;
+    let text = match app.run.setup.scene.lubricant {
         Some(_) => "starting: dry Hertz, then film",
         None => "starting: dry Hertz",
     };
@@ -191,7 +191,7 @@ impl MapRoom {
         Self {
             picture,
             bar: columns(whole, left + width, inner.width - width),
-            image: image_area(app.map, &window, picture),
+            image: image_area(app.view.map, &window, picture),
             window,
         }
     }
@@ -202,21 +202,21 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> MapWindow {
     let (columns, pixels) = (f64::from(picture.width), 2.0 * f64::from(picture.height));
     let x_end = frame.x_min_m + (frame.nx.max(2) - 1) as f64 * frame.dx_m;
     let domain = [frame.x_min_m / frame.a_m, x_end / frame.a_m];
-    let zoomed = |from: f64, to: f64| match app.zoom {
+    let zoomed = |from: f64, to: f64| match app.view.zoom {
         Zoom::Contact => [domain[0].max(from), domain[1].min(to)],
         Zoom::Domain => domain,
     };
-    if app.map.is_over_time() {
+    if app.view.map.is_over_time() {
         return MapWindow {
             x: zoomed(-1.6, 1.4),
             y: [-SHOWN, 0.0],
         };
     }
-    if app.map == MapKind::Stress {
+    if app.view.map == MapKind::Stress {
         let depths = frame.slice.as_ref().map(|slice| &slice.depths_m);
         let deepest = depths.and_then(|depths| depths.last());
         let deepest = deepest.map_or(1.0, |depth| depth / frame.a_m);
-        let depth = match app.zoom {
+        let depth = match app.view.zoom {
             Zoom::Contact => deepest.min(1.2),
             Zoom::Domain => deepest,
         };
@@ -226,7 +226,7 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> MapWindow {
         };
     }
     let half = (-frame.y_min_m / frame.b_m).abs().max(0.1);
-    let (half_height, wanted_x) = match app.zoom {
+    let (half_height, wanted_x) = match app.view.zoom {
         Zoom::Contact => (half.min(1.15), (domain[1] - domain[0]).min(2.6)),
         Zoom::Domain => (half, domain[1] - domain[0]),
     };
@@ -264,7 +264,7 @@ fn image_area(map: MapKind, window: &MapWindow, picture: Rect) -> Rect {
 /// Where the material point is: on the centre line, at its depth, or now.
 fn point_at(app: &App, frame: &Frame) -> Option<(f64, f64)> {
     let point = app.point_now()?;
-    let y = match app.map {
+    let y = match app.view.map {
         MapKind::Stress => point.depth_m / frame.a_m,
         // Now is the last row.
         MapKind::PressureWaves | MapKind::FilmWaves => -1e-9,
@@ -283,16 +283,16 @@ fn waves_at(app: &App, frame: &Frame, x: f64, ago: f64) -> Option<(f32, f32)> {
 
 /// The values at the probe, on the last row of the picture.
 fn probe(app: &App, frame: &Frame, room: &MapRoom, buffer: &mut Buffer) {
-    let Some((x, y)) = app.probe else { return };
-    let (p, h) = (app.units.pressure(), app.units.film());
+    let Some((x, y)) = app.view.probe else { return };
+    let (p, h) = (app.view.units.pressure(), app.view.units.film());
     let pressure_and_film = |(pressure, film): (f32, f32)| {
         let (p, h) = (p.show(f64::from(pressure), 3), h.show(f64::from(film), 3));
         format!("p {p}  h {h}")
     };
-    let text = if app.map.is_over_time() {
+    let text = if app.view.map.is_over_time() {
         waves_at(app, frame, x, -y)
             .map(|values| format!("{:.2} a ago  {}", -4.0 * y, pressure_and_film(values)))
-    } else if app.map == MapKind::Stress {
+    } else if app.view.map == MapKind::Stress {
         let shown = |stress: f32| p.show(f64::from(stress), 3);
         raster::stress_at(frame, x, y).map(|stress| format!("z {y:.2} a  σ {}", shown(stress)))
     } else {
@@ -301,6 +301,7 @@ fn probe(app: &App, frame: &Frame, room: &MapRoom, buffer: &mut Buffer) {
     };
     if let Some(text) = text {
         let line = app
+            .view
             .theme
             .line(format!(" x {x:.2} a  {text} "), Role::Strong);
         let last = (room.image.bottom() - room.picture.y).saturating_sub(1);

@@ -34,14 +34,14 @@ use place::rows;
 /// The panels of the screen as it is now.
 fn areas_of(app: &App, screen: Rect) -> Option<Areas> {
     let caption_rows = caption::of(app).map_or(0, |caption| caption.rows(screen.width));
-    let mut areas = Areas::of(screen, caption_rows)?.with_picture(app.focus);
+    let mut areas = Areas::of(screen, caption_rows)?.with_picture(app.view.focus);
     if app.why().is_some() {
         areas = areas.with_a_line();
     }
-    if let Some(panel) = app.enlarged {
+    if let Some(panel) = app.view.enlarged {
         areas = areas.enlarged(panel);
     }
-    if app.ghost.is_some() {
+    if app.view.frozen.is_some() {
         areas = areas.with_two_maps();
     }
     Some(areas)
@@ -56,7 +56,7 @@ pub fn draw(app: &App, frame: &mut Frame<'_>) {
 /// Draws the whole screen into a buffer; gives the curves that it leaves to a page, which draws them as lines.
 pub fn render(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
     let plots = draw_panels(app, screen, buffer);
-    if let Some(page) = app.theme.page() {
+    if let Some(page) = app.view.theme.page() {
         on_page(page, screen, buffer);
     }
     plots
@@ -94,7 +94,12 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
             PanelKind::Point => plots.extend(point::render(app, &areas, buffer)),
         }
     }
-    if let Some(ghost) = app.ghost.as_ref().filter(|_| !areas.frozen.is_empty()) {
+    if let Some(ghost) = app
+        .view
+        .frozen
+        .as_ref()
+        .filter(|_| !areas.frozen.is_empty())
+    {
         let map = areas.frozen;
         map::render(ghost, &Areas { map, ..areas }, buffer);
     }
@@ -103,7 +108,7 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
         caption::render(app, &caption, areas.caption, buffer);
     }
     let body = rows(screen, 1, screen.height - areas.status.height - 1);
-    match (app.fault(), app.overlay) {
+    match (app.fault(), app.view.overlay) {
         (Some(reason), _) => overlay::fault(app, reason, body, buffer),
         (None, Overlay::Help) => overlay::help(app, body, buffer),
         (None, Overlay::Plan) => overlay::plan(app, body, buffer),
@@ -136,7 +141,7 @@ fn picture_areas(app: &App, screen: Rect) -> Option<Areas> {
 pub fn pointed(app: &App, screen: Rect, pointer: Pointer) -> Option<Action> {
     let areas = areas_of(app, screen)?;
     let at = Position::new(pointer.column, pointer.row);
-    if app.overlay != Overlay::None {
+    if app.view.overlay != Overlay::None {
         let closes = matches!(pointer.act, PointerAct::Press | PointerAct::SecondPress);
         return closes.then_some(Action::Close);
     }
@@ -166,7 +171,7 @@ fn wheel(app: &App, areas: &Areas, at: Position, by: i32) -> Option<Action> {
         });
     }
     let place = knobs::under(app, areas, at)?;
-    Some(if place == app.chosen {
+    Some(if place == app.choice.chosen {
         Action::Turn(by)
     } else {
         Action::Choose(place)
@@ -184,7 +189,7 @@ fn too_small(app: &App, screen: Rect, buffer: &mut Buffer) {
         MIN_NARROW_SCREEN.1
     );
     Paragraph::new(text)
-        .style(app.theme.style(Role::Warn))
+        .style(app.view.theme.style(Role::Warn))
         .wrap(Wrap { trim: true })
         .render(screen, buffer);
 }

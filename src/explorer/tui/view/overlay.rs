@@ -24,7 +24,7 @@ struct Overlay<'a> {
 
 impl<'a> Overlay<'a> {
     fn new(app: &'a App, within: Rect, title: &str) -> Self {
-        let title = app.theme.words(title);
+        let title = app.view.theme.words(title);
         let role = Role::Key;
         Self {
             app,
@@ -36,7 +36,7 @@ impl<'a> Overlay<'a> {
 
     /// Draws it in a wanted size and gives the room inside.
     fn frame(&self, width: u16, height: u16, buffer: &mut Buffer) -> Rect {
-        let (theme, within) = (self.app.theme, self.within);
+        let (theme, within) = (self.app.view.theme, self.within);
         let area = within.centered(Constraint::Length(width), Constraint::Length(height));
         Clear.render(area, buffer);
         // As wide as the screen it needs no sides, and no foot where nothing is below.
@@ -64,7 +64,9 @@ impl<'a> Overlay<'a> {
         let hidden = (lines.len() as u16 + 2).saturating_sub(self.within.height);
         self.titled(hidden, closes);
         let inner = self.frame(width, lines.len() as u16 + 2, buffer);
-        let shown = lines.iter().skip(usize::from(self.app.scroll.min(hidden)));
+        let shown = lines
+            .iter()
+            .skip(usize::from(self.app.view.scroll.min(hidden)));
         for (row, line) in (0..inner.height).zip(shown) {
             put(inner, row, line, buffer);
         }
@@ -72,7 +74,7 @@ impl<'a> Overlay<'a> {
 
     /// Says in the title how the rest is reached, and which key closes it.
     fn titled(&mut self, hidden: u16, closes: &str) {
-        let theme = self.app.theme;
+        let theme = self.app.view.theme;
         let more = match hidden {
             0 => "",
             _ => theme.pick("↑↓ for more, ", "up, down for more, "),
@@ -100,7 +102,7 @@ pub(super) fn help(app: &App, within: Rect, buffer: &mut Buffer) {
     let cells = Layout::horizontal(vec![Constraint::Fill(1); usize::from(columns)]).split(inner);
     let shown: Vec<_> = lines
         .iter()
-        .skip(usize::from(app.scroll.min(hidden)))
+        .skip(usize::from(app.view.scroll.min(hidden)))
         .collect();
     for (cell, lines) in cells.iter().zip(shown.chunks(usize::from(each))) {
         let cell = Rect {
@@ -121,7 +123,7 @@ enum HelpHeading {
 }
 
 fn help_lines(app: &App) -> Vec<(HelpHeading, Line<'static>)> {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let heading = |name: &str| (HelpHeading::Yes, theme.line(name, Role::Title));
     let row = |keys: &str, help: &str, role: Role| {
         let keys = format!("{:>7} ", ascii_keys(app, keys));
@@ -156,19 +158,19 @@ fn offered(app: &App, action: Action) -> bool {
 }
 
 fn ascii_keys(app: &App, keys: &str) -> String {
-    if !app.theme.is_ascii() {
+    if !app.view.theme.is_ascii() {
         return keys.to_owned();
     }
     let plain = keys
         .replace("↑↓", "up dn")
         .replace("⇧←→ ", "")
         .replace("←→", "lt rt");
-    app.theme.words(plain)
+    app.view.theme.words(plain)
 }
 
 /// What is computed, what is not, and why.
 pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let mut lines = Vec::new();
     let cautions = app.cautions();
     if !cautions.is_empty() {
@@ -177,15 +179,15 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
         lines.extend(cautions.iter().map(|caution| text(&caution.text)));
         lines.push(Line::default());
     }
-    if !app.setup.left_out.is_empty() {
+    if !app.run.setup.left_out.is_empty() {
         lines.push(theme.line("Not modelled or not needed", Role::Warn));
-        for left in &app.setup.left_out {
+        for left in &app.run.setup.left_out {
             let stage = theme.span(format!("  {}: ", left.stage), Role::Strong);
             lines.push(Line::from(vec![stage, Span::raw(theme.words(&left.why))]));
         }
         lines.push(Line::default());
     }
-    let plan = app.setup.plan_text.lines();
+    let plan = app.run.setup.plan_text.lines();
     lines.extend(plan.map(|line| Line::raw(theme.words(line))));
     Overlay::new(app, within, "plan").text(100, &lines, "i closes", buffer);
 }
@@ -193,7 +195,7 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
 /// Words that are too long for the last line, in a box at the foot of the screen; gives the rows that it takes.
 pub(super) fn message(app: &App, text: &str, screen: Rect, buffer: &mut Buffer) -> Rect {
     let wide = 100.min(screen.width);
-    let line = |line: &str| app.theme.line(line, Role::Warn);
+    let line = |line: &str| app.view.theme.line(line, Role::Warn);
     let lines: Vec<_> = text.lines().map(line).collect();
     let columns = usize::from(wide.saturating_sub(4)).max(1);
     let tall: usize = lines.iter().map(|line| folded(line, columns).len()).sum();
@@ -208,7 +210,7 @@ pub(super) fn message(app: &App, text: &str, screen: Rect, buffer: &mut Buffer) 
 
 /// An engine that failed.
 pub(super) fn fault(app: &App, reason: &str, within: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let lines = [
         theme.line(reason, Role::Bad),
         Line::default(),
@@ -229,11 +231,11 @@ pub(super) fn fault(app: &App, reason: &str, within: Rect, buffer: &mut Buffer) 
 
 /// The lessons: one of them begins.
 pub(super) fn lessons(app: &App, within: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let overlay = Overlay::new(app, within, "lessons (t closes)");
-    let inner = overlay.frame(66, app.lessons.len() as u16 + 4, buffer);
-    for (place, lesson) in app.lessons.iter().enumerate() {
-        let chosen = place == app.lesson;
+    let inner = overlay.frame(66, app.lesson.all.len() as u16 + 4, buffer);
+    for (place, lesson) in app.lesson.all.iter().enumerate() {
+        let chosen = place == app.lesson.chosen;
         let mark = if chosen { theme.pick("▸", ">") } else { " " };
         let role = if chosen { Role::Chosen } else { Role::Text };
         let asked = lesson.beats.iter().filter(|beat| beat.question.is_some());
@@ -261,8 +263,10 @@ pub(super) fn lessons(app: &App, within: Rect, buffer: &mut Buffer) {
 pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
     /// Rows below the list: one left free, three of words, one of keys.
     const BELOW: u16 = 5;
-    let theme = app.theme;
-    let Some(draft) = &app.draft else { return };
+    let theme = app.view.theme;
+    let Some(draft) = &app.choice.draft else {
+        return;
+    };
     let choices = draft.form.rows();
     let (title, keys) = match draft.form {
         Form::Scene => (
@@ -288,7 +292,10 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
     for (place, row) in (first..choices.len()).take(seen).enumerate() {
         put(inner, place as u16, &line_of(app, draft, row), buffer);
     }
-    let typed = draft.typed.as_ref().and_then(|_| draft.allowed(app.units));
+    let typed = draft
+        .typed
+        .as_ref()
+        .and_then(|_| draft.allowed(app.view.units));
     let (words, role) = match (&typed, &draft.verdict) {
         (Some(allowed), _) => (allowed, Role::Text),
         (None, Ok(words)) => (words, Role::Good),
@@ -302,14 +309,14 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
 
 /// Name and value of a row.
 fn line_of(app: &App, draft: &Draft, row: usize) -> Line<'static> {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let choice = draft.form.rows()[row];
     let chosen = row == draft.row;
     let role = if chosen { Role::Chosen } else { Role::Text };
     let value = match &draft.typed {
         Some(typed) if chosen => format!("= {typed}_"),
-        _ if chosen => format!("◂ {} ▸", choice.shown(draft, app.units)),
-        _ => format!("  {}", choice.shown(draft, app.units)),
+        _ if chosen => format!("◂ {} ▸", choice.shown(draft, app.view.units)),
+        _ => format!("  {}", choice.shown(draft, app.view.units)),
     };
     Line::from(vec![
         theme.span(format!("{:<22}", choice.name()), role),

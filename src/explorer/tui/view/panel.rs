@@ -19,11 +19,11 @@ pub(super) fn panel(
     title: Line<'_>,
     buffer: &mut Buffer,
 ) -> Rect {
-    let (theme, area) = (app.theme, areas.of_panel(kind));
-    let (role, key) = match app.enlarged {
+    let (theme, area) = (app.view.theme, areas.of_panel(kind));
+    let (role, key) = match app.view.enlarged {
         Some(_) => (Role::Key, " Esc "),
-        None if app.is_frozen => (Role::Formula, ""),
-        None if app.focus == kind => (Role::Key, " ⏎ "),
+        None if app.view.is_frozen => (Role::Formula, ""),
+        None if app.view.focus == kind => (Role::Key, " ⏎ "),
         None => (Role::Border, ""),
     };
     let has_room = title.width() + key.chars().count() + 2 < usize::from(area.width);

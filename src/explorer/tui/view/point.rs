@@ -21,16 +21,16 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
     let inner = panel(app, areas, PanelKind::Point, heading(app), buffer);
     let frame = app.frame()?;
     let Some(point) = app.point_now() else {
-        let text = match (frame.stage, &app.setup.scene.stress) {
+        let text = match (frame.stage, &app.run.setup.scene.stress) {
             (_, None) => "no stress is computed in this scene, so no material point is followed",
             (Stage::StartUp, _) => "followed once the passage begins",
             (Stage::Passage, _) => "no material point is followed",
         };
-        put(inner, 0, &app.theme.line(text, Role::Dim), buffer);
+        put(inner, 0, &app.view.theme.line(text, Role::Dim), buffer);
         return None;
     };
     let left = columns(inner, 0, words(areas));
-    table(app.theme, left, &numbers(app, frame, &point), buffer);
+    table(app.view.theme, left, &numbers(app, frame, &point), buffer);
     let area = plot(areas);
     if area.is_empty() {
         return None;
@@ -86,8 +86,8 @@ pub(super) fn dragged(areas: &Areas, at: Position) -> Option<Action> {
 }
 
 fn heading(app: &App) -> Line<'static> {
-    let theme = app.theme;
-    let name = match app.quantity {
+    let theme = app.view.theme;
+    let name = match app.view.point_quantity {
         PointQuantity::Pressure => "material point: pressure on it",
         PointQuantity::Excess => "material point: pressure on it less Hertz's",
         PointQuantity::Shear => "material point: shear below it",
@@ -95,7 +95,7 @@ fn heading(app: &App) -> Line<'static> {
     };
     let mut line = title(theme, "p", name);
     if let Some(point) = app.point_now() {
-        let depth = app.units.length().show(point.depth_m, 2);
+        let depth = app.view.units.length().show(point.depth_m, 2);
         let note = format!("body {}, {depth} deep ", point.body);
         line.push_span(theme.span("P ", Role::Key));
         line.push_span(theme.span(note, Role::Dim));
@@ -104,13 +104,13 @@ fn heading(app: &App) -> Line<'static> {
 }
 
 fn numbers(app: &App, frame: &Frame, point: &PointNow) -> [Entry; 8] {
-    let pressure = app.units.pressure();
+    let pressure = app.view.units.pressure();
     let sample = point.sample;
     let body = match point.body {
         2 => Role::Body2,
         _ => Role::Body1,
     };
-    let crossing = match app.replay {
+    let crossing = match app.replay.playing {
         Some(_) => "in this crossing",
         None => "crossing before",
     };
@@ -150,8 +150,8 @@ fn hertz_pa(x: f64, frame: &Frame) -> f64 {
 
 fn trace(app: &App, frame: &Frame, plot: Plot, buffer: &mut Buffer) -> Option<PixelPlot> {
     let mut chart = CurvePanel::new(plot);
-    let pen = |role: Role, letter: char| Pen::new(app.theme, role, letter);
-    let quantity = app.quantity;
+    let pen = |role: Role, letter: char| Pen::new(app.view.theme, role, letter);
+    let quantity = app.view.point_quantity;
     let points = |samples: &[TraceSample], frame: &Frame| -> Vec<(f64, f64)> {
         let place = |sample: TraceSample| (sample.x_m / frame.a_m, value(quantity, &sample, frame));
         samples.iter().copied().map(place).collect()
@@ -168,12 +168,15 @@ fn trace(app: &App, frame: &Frame, plot: Plot, buffer: &mut Buffer) -> Option<Pi
     if let Some((ghost, frozen)) = ghost(app) {
         chart.line(points(ghost, frozen), pen(Role::Formula, ','));
     }
-    chart.line(points(app.trace.before(), frame), pen(Role::Border, '.'));
-    chart.line(points(app.trace.current(), frame), pen(role, '*'));
+    chart.line(
+        points(app.replay.trace.before(), frame),
+        pen(Role::Border, '.'),
+    );
+    chart.line(points(app.replay.trace.current(), frame), pen(role, '*'));
     let curves = chart.render(app, buffer);
-    if let Some(last) = app.trace.current().last() {
+    if let Some(last) = app.replay.trace.current().last() {
         let y = value(quantity, last, frame).clamp(plot.y[0], plot.y[1]);
-        let here = Symbol::new(app.theme, "◆", "X", Role::Strong);
+        let here = Symbol::new(app.view.theme, "◆", "X", Role::Strong);
         plot.mark(last.x_m / frame.a_m, y, here, buffer);
     }
     curves
@@ -181,9 +184,9 @@ fn trace(app: &App, frame: &Frame, plot: Plot, buffer: &mut Buffer) -> Option<Pi
 
 /// The crossing that was frozen, and the frame beside it.
 fn ghost(app: &App) -> Option<(&[TraceSample], &Frame)> {
-    let ghost = app.ghost.as_ref()?;
+    let ghost = app.view.frozen.as_ref()?;
     let frame = ghost.frame()?;
-    let (before, current) = (ghost.trace.before(), ghost.trace.current());
+    let (before, current) = (ghost.replay.trace.before(), ghost.replay.trace.current());
     let whole = if before.is_empty() { current } else { before };
     Some((whole, frame))
 }
@@ -193,16 +196,21 @@ const X_RANGE: [f64; 2] = [-1.5, 1.5];
 
 /// The scale of the trace itself: this crossing and the one before, so that small teeth are seen.
 fn range(app: &App, frame: &Frame) -> [f64; 2] {
-    let samples = app.trace.before().iter().chain(app.trace.current());
-    let values = samples.map(|sample| value(app.quantity, sample, frame).abs());
+    let samples = app
+        .replay
+        .trace
+        .before()
+        .iter()
+        .chain(app.replay.trace.current());
+    let values = samples.map(|sample| value(app.view.point_quantity, sample, frame).abs());
     let frozen = ghost(app).into_iter().flat_map(|(samples, frame)| {
         let frozen = samples.iter();
-        frozen.map(|sample| value(app.quantity, sample, frame).abs())
+        frozen.map(|sample| value(app.view.point_quantity, sample, frame).abs())
     });
     let reached = nice_ceiling(values.chain(frozen).fold(0.0, f64::max));
     // Nothing yet, or next to nothing: a part of Hertz's pressure.
     let most = reached.max(0.02 * frame.p_hertz_pa).max(1.0);
-    match app.quantity {
+    match app.view.point_quantity {
         PointQuantity::Pressure => [0.0, most.max(frame.p_hertz_pa)],
         PointQuantity::Effective => [0.0, most],
         PointQuantity::Shear | PointQuantity::Excess => [-most, most],
@@ -212,8 +220,8 @@ fn range(app: &App, frame: &Frame) -> [f64; 2] {
 /// A tick under the trace for each peak that has passed, and its number on the curve where there is room.
 fn peaks_ticked(app: &App, frame: &Frame, plot: &Plot, buffer: &mut Buffer) {
     let mut free_from = 0;
-    let symbol = Symbol::new(app.theme, "╿", "|", Role::Cycles);
-    for tick in app.trace.ticks() {
+    let symbol = Symbol::new(app.view.theme, "╿", "|", Role::Cycles);
+    for tick in app.replay.trace.ticks() {
         let Some(column) = plot.column(tick.x_m / frame.a_m) else {
             continue;
         };
@@ -221,16 +229,21 @@ fn peaks_ticked(app: &App, frame: &Frame, plot: &Plot, buffer: &mut Buffer) {
         let number = tick.number.to_string();
         let width = number.len() as u16;
         let first = (column.saturating_sub((width - 1) / 2)).min(plot.area.right() - width);
-        let Some(sample) = nearest(app.trace.current(), tick.x_m) else {
+        let Some(sample) = nearest(app.replay.trace.current(), tick.x_m) else {
             continue;
         };
         if first < free_from {
             continue;
         }
         // Above the curve, or on it where it reaches the top.
-        let row = plot.row(value(app.quantity, sample, frame));
+        let row = plot.row(value(app.view.point_quantity, sample, frame));
         let row = row.saturating_sub(1).max(plot.area.y);
-        buffer.set_line(first, row, &app.theme.line(number, Role::Cycles), width);
+        buffer.set_line(
+            first,
+            row,
+            &app.view.theme.line(number, Role::Cycles),
+            width,
+        );
         free_from = first + width + 1;
     }
 }
@@ -242,12 +255,12 @@ fn nearest(samples: &[TraceSample], x_m: f64) -> Option<&TraceSample> {
 }
 
 fn axis(app: &App, plot: &Plot, depth_m: f64, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let pressure = app.units.pressure();
+    let theme = app.view.theme;
+    let pressure = app.view.units.pressure();
     let ends = plot.y.map(|value| tick(pressure.of(value)));
     plot.y_ends(theme, &ends, pressure.name, buffer);
-    if app.quantity != PointQuantity::Pressure && plot.area.height >= 5 {
-        let depth = app.units.length().show(depth_m, 2);
+    if app.view.point_quantity != PointQuantity::Pressure && plot.area.height >= 5 {
+        let depth = app.view.units.length().show(depth_m, 2);
         let text = theme.line(format!("at depth {depth}"), Role::Dim);
         put_right(plot.area, 0, &text, buffer);
     }

@@ -27,7 +27,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) {
     if let Some(why) = app.why() {
         let text = why.in_columns(usize::from(area.width) - 2);
         let role = led(why.of, Role::Strong);
-        let line = app.theme.line(format!(" {text}"), role);
+        let line = app.view.theme.line(format!(" {text}"), role);
         put(area, row, &line, buffer);
         row += 1;
     }
@@ -56,7 +56,7 @@ fn write(app: &App, area: Rect, row: u16, words: &StatusWords, buffer: &mut Buff
     let gap = Span::raw("  ");
     let words = words
         .iter()
-        .flat_map(|(text, role)| [app.theme.span(text, *role), gap.clone()]);
+        .flat_map(|(text, role)| [app.view.theme.span(text, *role), gap.clone()]);
     let room = columns_from(area, 1);
     put(room, row, &fitted(words, room.width), buffer);
 }
@@ -64,7 +64,7 @@ fn write(app: &App, area: Rect, row: u16, words: &StatusWords, buffer: &mut Buff
 fn progress(app: &App, frame: &Frame) -> StatusWords {
     if frame.stage == Stage::StartUp {
         let share = (100.0 * frame.start_up).floor();
-        let what = match app.setup.scene.lubricant {
+        let what = match app.run.setup.scene.lubricant {
             Some(_) => "film",
             None => "contact",
         };
@@ -77,7 +77,7 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
         (format!("step {}", frame.step), Role::Text),
     ];
     if let Some(body) = knobs::standing(frame.metrics.slide_roll) {
-        let means = match app.setup.scene.life.as_ref().map(|life| life.cycles) {
+        let means = match app.run.setup.scene.life.as_ref().map(|life| life.cycles) {
             Some(CycleBasis::Damage) => ": its cycles never end",
             Some(CycleBasis::Global | CycleBasis::Peaks) => ": its life is not counted",
             None => "",
@@ -96,12 +96,12 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
         };
         words.push((what, Role::Good));
     }
-    if let Some(replay) = &app.replay {
+    if let Some(replay) = &app.replay.playing {
         let speed = format!("replayed at 1/{} of its speed", sig(1.0 / replay.rate(), 2));
         words.push((speed, Role::Text));
     }
-    if let Some((done, all)) = app.sweep {
-        let along = swept(app.sweeping);
+    if let Some((done, all)) = app.lives.sweep {
+        let along = swept(app.lives.sweeping);
         words.push((format!("sweeping {along} {done}/{all}"), Role::Warn));
     }
     words
@@ -119,7 +119,7 @@ fn quality(app: &App, frame: &Frame) -> StatusWords {
         .lambda_ratio
         .map_or_else(String::new, |lambda| format!(" λ {}", sig(lambda, 2)));
     let shown = |word: &str, quantity: &Quantity, digits: i32, role: Role| {
-        let value = app.units.show(quantity, frame, digits);
+        let value = app.view.units.show(quantity, frame, digits);
         (format!("{word} {value}"), role)
     };
     let mut words = vec![
@@ -153,7 +153,7 @@ fn not_converged(app: &App, trouble: Trouble) -> String {
         }
         WhyUnconverged::Film(part) => format!("{part:.1e} of the film not balanced"),
         WhyUnconverged::Overlap(overlap_m) => {
-            let overlap = app.units.film().show(overlap_m, 2);
+            let overlap = app.view.units.film().show(overlap_m, 2);
             // A load turned by hand keeps the domain of the run's start; started anew the scene has one of its own.
             format!("surfaces overlap by {overlap}; e, Enter: wider domain")
         }
@@ -188,7 +188,7 @@ fn regime(metrics: &Metrics) -> (&'static str, Role) {
 }
 
 fn last_line(app: &App, area: Rect, row: u16, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let recorder = recorder(app);
     let room = columns(
         area,

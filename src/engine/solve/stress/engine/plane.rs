@@ -15,11 +15,11 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use super::super::layer::{Layer, layers_at};
+use super::super::load::Half;
 use super::super::peak::measure_of;
 use super::super::spec::Loading;
 use super::super::window::LOW;
 use super::StressEngine;
-use super::load::Half;
 use crate::physics::invariants::Stress6;
 
 type ComplexMode = Complex<f32>;

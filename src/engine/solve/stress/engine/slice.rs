@@ -12,12 +12,12 @@
 //! Part of `stress/mod.rs`. Ours: its responses as polynomials in z, so that the sums over ky are formed once.
 
 use super::super::layer::{Layer, LowRow, Waves};
+use super::super::load::{Half, Spectrum};
 use super::super::peak::refine;
 use super::super::slice_out::{SliceOut, turn_depths, write_rows};
 use super::super::spec::{Loading, StressSpec, Symmetry};
 use super::super::window::LOW;
 use super::StressEngine;
-use super::load::{Half, Spectrum};
 use crate::math::fused::Fused as _;
 use crate::math::lane_fft::{Lanes, pack_pair};
 use crate::math::lanes::{C, LANES, V};

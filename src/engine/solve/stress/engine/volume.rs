@@ -20,6 +20,7 @@ use rayon::prelude::*;
 
 use super::super::assemble::{Part, block_inputs};
 use super::super::layer::{Layer, Waves};
+use super::super::load::Spectrum;
 use super::super::measure::excess;
 use super::super::rows::{squares_of, turn_rows, unfold_rows, weighted_sum};
 use super::super::slice_out::Peak;
@@ -28,7 +29,6 @@ use super::super::sums::{
     Integral, LayerResult, LayerResults, LayerSum, MAX_LAWS, StressLaw, VolumeSums,
 };
 use super::StressEngine;
-use super::load::Spectrum;
 use crate::math::lane_fft::{LaneFft, Lanes, pack_pair};
 use crate::math::lanes::{LANES, V};
 use crate::physics::cycles::BodyId;

@@ -50,7 +50,7 @@ const FINE: usize = 120;
 const MOVES: f64 = 1.9;
 
 pub(super) fn figure(app: &App) -> CurveFigure {
-    match app.curve {
+    match app.view.curve {
         CurveKind::Life => life(app),
         CurveKind::Friction => friction(app),
         CurveKind::Stribeck => stribeck(app),
@@ -59,7 +59,7 @@ pub(super) fn figure(app: &App) -> CurveFigure {
 
 /// What a press at a place of the present curve's axis asks for.
 pub(super) fn goes_to(app: &App, x: f64) -> Action {
-    match app.curve {
+    match app.view.curve {
         CurveKind::Life | CurveKind::Friction => Action::GoTo(Knob::SlideRoll, x),
         CurveKind::Stribeck => {
             let [sign, _] = axis(app, Knob::EntrainmentMS).0;
@@ -70,7 +70,7 @@ pub(super) fn goes_to(app: &App, x: f64) -> Action {
 
 /// Range and target of a knob.
 fn axis(app: &App, knob: Knob) -> ([f64; 2], f64) {
-    let dial = app.dials.iter().find(|dial| dial.knob == knob);
+    let dial = app.choice.dials.iter().find(|dial| dial.knob == knob);
     dial.map_or(([0.0, 1.0], 0.0), |dial| {
         ([dial.min, dial.max], dial.target)
     })
@@ -168,7 +168,7 @@ fn stribeck(app: &App) -> CurveFigure {
     } else {
         String::new()
     };
-    let unit = app.units.speed();
+    let unit = app.view.units.speed();
     CurveFigure {
         name: "Stribeck",
         knob: place(knob),

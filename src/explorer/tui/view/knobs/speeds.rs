@@ -15,17 +15,17 @@ use asperity_engine::sim::{Quantity, named};
 
 /// Where there is room: both bodies' speeds, the contact's size, and what the letters mean.
 pub(super) fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let Some(frame) = app.frame() else { return };
     let metrics = &frame.metrics;
-    let speed = app.units.speed();
+    let speed = app.view.units.speed();
     let (u1, u2) = speed_ratios(metrics.slide_roll);
     let sliding = (u2 - u1).abs();
     let specific = |own: f64| match sliding / own.abs() {
         ratio if ratio.is_finite() => sig(ratio, 2),
         _ => "∞".to_owned(),
     };
-    let shown = |quantity: &Quantity, digits: i32| app.units.show(quantity, frame, digits);
+    let shown = |quantity: &Quantity, digits: i32| app.view.units.show(quantity, frame, digits);
     let mean = metrics.entrainment_m_s;
     let a = shown(const { named("a_m") }, 3);
     let across = match frame.kind {
@@ -64,7 +64,7 @@ const WORDS: u16 = 22;
 
 /// What only a new run changes (`e`); the rows used.
 fn fixed(app: &App, area: Rect, buffer: &mut Buffer) -> u16 {
-    let oil = Choice::Viscosity.of_scene(&app.setup.scene, app.units);
+    let oil = Choice::Viscosity.of_scene(&app.run.setup.scene, app.view.units);
     let lines = [
         Entry::new("lay₁ W/a", lay(app, 0), Role::Body1),
         Entry::new("lay₂ W/a", lay(app, 1), Role::Body2),
@@ -74,19 +74,19 @@ fn fixed(app: &App, area: Rect, buffer: &mut Buffer) -> u16 {
     if area.height < count + SYMBOLS.len() as u16 {
         return 0;
     }
-    table(app.theme, columns_from(area, 2), &lines, buffer);
+    table(app.view.theme, columns_from(area, 2), &lines, buffer);
     for row in 0..count {
-        put(area, row, &app.theme.line("e", Role::Key), buffer);
+        put(area, row, &app.view.theme.line("e", Role::Key), buffer);
     }
     count
 }
 
 /// `transverse 0.43`.
 fn lay(app: &App, body: usize) -> String {
-    let scene = &app.setup.scene;
-    let lay = Choice::Lay(body).of_scene(scene, app.units);
+    let scene = &app.run.setup.scene;
+    let lay = Choice::Lay(body).of_scene(scene, app.view.units);
     match Choice::wave_m(scene, body) {
-        Some(wave_m) => format!("{lay} {}", sig(wave_m / app.setup.half_width_m, 2)),
+        Some(wave_m) => format!("{lay} {}", sig(wave_m / app.run.setup.half_width_m, 2)),
         None => lay,
     }
 }

@@ -50,7 +50,7 @@ fn decade(value: f64) -> f64 {
 
 /// The life from 1e-4 to 10, with its band, the formula's and the pinned one.
 pub(super) fn scale(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let symbol = |unicode, ascii, role| Symbol::new(theme, unicode, ascii, role);
     let track = LogTrack::new(rows.take(1), [-4.0, 1.0]);
     let rule = symbol("─", "-", Role::Border);
@@ -68,10 +68,10 @@ pub(super) fn scale(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
         columns.for_each(|column| track.draw(column, band, buffer));
         track.mark(life.life_relative, number, buffer);
     }
-    if let Some(estimate) = app.estimate.formula.life() {
+    if let Some(estimate) = app.lives.estimate.formula.life() {
         track.mark(estimate, symbol("◇", "f", Role::Formula), buffer);
     }
-    if let Some(pinned) = &app.pinned {
+    if let Some(pinned) = &app.view.pinned {
         track.mark(pinned.life_relative, symbol("▼", "P", Role::Warn), buffer);
     }
     let names = rows.take(1);
@@ -91,16 +91,20 @@ pub(super) fn scale(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
 /// The factors one under the other on one logarithmic scale: each bar begins where the one above ended, so that the
 /// third ends at the life; the fourth is what the load costs beside it.
 pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let now = app.leading_factors();
-    let pinned = app.pinned.map_or(1.0, |pinned| pinned.load_factor);
+    let pinned = app.view.pinned.map_or(1.0, |pinned| pinned.load_factor);
     let factors = [
         ("cycles", now.and_then(|now| now.cycle), Role::Cycles),
         ("peaks", now.map(|now| now.peak), Role::Peaks),
         ("traction", now.map(|now| now.traction), Role::Traction),
         ("load", now.map(|now| now.load / pinned), Role::Strong),
     ];
-    let ghost = app.ghost.as_ref().and_then(|ghost| ghost.leading_factors());
+    let ghost = app
+        .view
+        .frozen
+        .as_ref()
+        .and_then(|ghost| ghost.leading_factors());
     let frozen = ghost.map(|of| [of.cycle, Some(of.peak), Some(of.traction), Some(of.load)]);
     let (mut from, mut frozen_end) = (1.0, 1.0);
     for (n, (name, factor, role)) in factors.into_iter().enumerate() {
@@ -127,13 +131,13 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
 
 /// What the load's factor is against.
 fn against(app: &App, row: Rect, buffer: &mut Buffer) {
-    let unit = match app.setup.scene.kind() {
-        ContactKind::Point => app.units.force(),
-        ContactKind::Line => app.units.force_per_length(),
+    let unit = match app.run.setup.scene.kind() {
+        ContactKind::Point => app.view.units.force(),
+        ContactKind::Line => app.view.units.force_per_length(),
     };
-    let (whose, load) = match app.pinned {
+    let (whose, load) = match app.view.pinned {
         Some(pinned) => ("pinned", pinned.load_n),
-        None => ("the scene's", app.setup.load_n),
+        None => ("the scene's", app.run.setup.load_n),
     };
     // A load that is cut is another load.
     let load = unit.show(load, 3);
@@ -143,7 +147,7 @@ fn against(app: &App, row: Rect, buffer: &mut Buffer) {
         format!("  against {load}"),
     ];
     if let Some(words) = fitting(forms.iter().map(String::as_str), usize::from(row.width)) {
-        put(row, 0, &app.theme.line(words, Role::Dim), buffer);
+        put(row, 0, &app.view.theme.line(words, Role::Dim), buffer);
     }
 }
 

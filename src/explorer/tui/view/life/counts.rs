@@ -14,14 +14,14 @@ use asperity_engine::sim::Metrics;
 
 /// n by formula beside n counted, for both bodies.
 pub(super) fn counts(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let metrics = app.frame().map(|frame| &frame.metrics);
     let counted = |of: fn(&Metrics) -> Option<f64>| metrics.and_then(of);
     let counted = [
         counted(|metrics| metrics.n_counted_body_1),
         counted(|metrics| metrics.n_counted_body_2),
     ];
-    let formula = [app.estimate.n_body_1, app.estimate.n_body_2];
+    let formula = [app.lives.estimate.n_body_1, app.lives.estimate.n_body_2];
     for (body, (name, role)) in [("n₁ ", Role::Body1), ("n₂ ", Role::Body2)]
         .into_iter()
         .enumerate()
@@ -42,28 +42,28 @@ pub(super) fn counts(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
 
 /// What the simulation says, as far as it is known.
 fn known(app: &App, value: Option<f64>, digits: i32, role: Role) -> Span<'static> {
-    let mut span = app.theme.span(sig_or_dash(value, digits), role);
+    let mut span = app.view.theme.span(sig_or_dash(value, digits), role);
     span.style = simulated(app, span.style);
     span
 }
 
 /// The life by the count that is not the headline's: the paper's, or that by damage.
 pub(super) fn other_count(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let (Some(life), Some(asked)) = (app.life(), &app.setup.scene.life) else {
+    let (Some(life), Some(asked)) = (app.life(), &app.run.setup.scene.life) else {
         return;
     };
     let (word, other) = match asked.cycles {
         CycleBasis::Damage => ("paper's count", life.detail.life_global),
         CycleBasis::Global | CycleBasis::Peaks => ("by damage", life.detail.life_damage),
     };
-    let word = app.theme.span(format!("{word} "), Role::Dim);
+    let word = app.view.theme.span(format!("{word} "), Role::Dim);
     let line = Line::from(vec![word, known(app, other, 2, Role::Text)]);
     put(rows.take(1), 0, &line, buffer);
 }
 
 /// "3.4 times shorter than pinned".
 pub(super) fn comparison(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let row = rows.take(1);
     let Some(ratio) = app.against_pinned() else {
         return;
@@ -85,14 +85,16 @@ pub(super) fn comparison(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
         &Line::from(vec![mark, theme.span(words, role)]),
         buffer,
     );
-    let Some(pinned) = &app.pinned else { return };
+    let Some(pinned) = &app.view.pinned else {
+        return;
+    };
     if rows.rest.height >= 20 {
         let text = format!(
             "  pinned: {} {} at S {}, p_h {}",
             pinned.leading.name(),
             sig(pinned.life_relative, 2),
             sig(pinned.slide_roll, 2),
-            app.units.pressure().show(pinned.p_hertz_pa, 3)
+            app.view.units.pressure().show(pinned.p_hertz_pa, 3)
         );
         put(rows.take(1), 0, &theme.line(text, Role::Dim), buffer);
     }

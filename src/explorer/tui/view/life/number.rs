@@ -15,7 +15,7 @@ use crate::tui::view::place::{columns_from, fitted, fitting, put};
 
 /// What the number is, for the panel's title: where there is no room beside the figure, against what.
 pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
-    let times = app.theme.pick("× smooth rolling", "x smooth rolling");
+    let times = app.view.theme.pick("× smooth rolling", "x smooth rolling");
     match areas.life.width {
         _ if areas.density == PanelSpacing::Full => "relative life",
         24.. => "against smooth rolling",
@@ -25,12 +25,12 @@ pub(super) fn name(app: &App, areas: &Areas) -> &'static str {
 
 /// The number itself.
 pub(super) fn figure(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let role = led(app.leading(), Role::Strong);
     let text = short(app.leading_life());
     let area = rows.take(digits::ROWS);
     if app.leading_life().is_none() {
-        let why = if app.estimate.formula.cycle.is_none() {
+        let why = if app.lives.estimate.formula.cycle.is_none() {
             "a body stands: no life"
         } else {
             "no estimate"
@@ -49,8 +49,8 @@ pub(super) fn figure(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
 
 /// Which model and effective stress, and how far other choices would move the number.
 pub(super) fn model(app: &App, row: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let scene = &app.setup.scene;
+    let theme = app.view.theme;
+    let scene = &app.run.setup.scene;
     let (Some(life), Some(stress)) = (&scene.life, &scene.stress) else {
         return;
     };
@@ -93,12 +93,12 @@ enum Beside {
 fn source(app: &App, gap: &str) -> Span<'static> {
     let leading = app.leading();
     let words = format!("{}{gap}", leading.name());
-    app.theme.span(words, led(leading, Role::Good))
+    app.view.theme.span(words, led(leading, Role::Good))
 }
 
 /// Beside the large figure: where the number comes from.
 fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) -> Beside {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let used = if theme.is_ascii() {
         used / 2 + 8
     } else {
@@ -116,11 +116,14 @@ fn said(app: &App, area: Rect, used: u16, buffer: &mut Buffer) -> Beside {
 
 /// The number's source, where it does not stand beside it; its band, and the other numbers as far as there is room.
 fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
-    let theme = app.theme;
+    let theme = app.view.theme;
     if app.leading_life().is_none() {
         return Line::default();
     }
-    let formula = format!("  formula {}", sig_or_dash(app.estimate.formula.life(), 2));
+    let formula = format!(
+        "  formula {}",
+        sig_or_dash(app.lives.estimate.formula.life(), 2)
+    );
     let formula = theme.span(formula, Role::Formula);
     let parts = match (app.leading(), app.life()) {
         (Leading::Simulated, Some(life)) => {

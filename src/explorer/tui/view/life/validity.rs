@@ -12,7 +12,7 @@ use asperity_engine::sim::{Caution, CautionCode};
 
 /// The weightiest caution, and how many more there are behind `i`: in its own words where they fit, else by its name.
 pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     let cautions = app.cautions();
     let Some(first) = cautions.first() else {
         return;
@@ -37,7 +37,10 @@ pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
     put(row, 0, &line, buffer);
     // Where there was no room for the formula's number beside the simulation's, it stands here.
     if row.width < BESIDE && app.leading() == Leading::Simulated {
-        let formula = format!("formula {}", sig_or_dash(app.estimate.formula.life(), 2));
+        let formula = format!(
+            "formula {}",
+            sig_or_dash(app.lives.estimate.formula.life(), 2)
+        );
         let formula = theme.line(formula, Role::Formula);
         if line.width() + formula.width() < usize::from(row.width) {
             put_right(row, 0, &formula, buffer);

@@ -39,14 +39,14 @@ pub(super) fn draw(
         y: [window.y[1], window.y[0]],
     };
     if below > 0 {
-        plot.half_widths(app.theme, inner.y + foot, buffer);
+        plot.half_widths(app.view.theme, inner.y + foot, buffer);
     }
     if left > 0 {
         let cells = columns(inner, 0, left - 1);
         downwards(app, frame, &plot, cells, buffer);
         if below > 0 {
             // The corner says what the numbers above it are.
-            let name = app.theme.line(down(app, frame).name, Role::Dim);
+            let name = app.view.theme.line(down(app, frame).name, Role::Dim);
             put_right(cells, foot, &name, buffer);
         }
     }
@@ -65,7 +65,7 @@ fn downwards(app: &App, frame: &Frame, plot: &Plot, cells: Rect, buffer: &mut Bu
     for value in values {
         let row = plot.row(value / scale.per_window);
         if row >= free_from {
-            let number = app.theme.line(tick(value), Role::Dim);
+            let number = app.view.theme.line(tick(value), Role::Dim);
             put_right(cells, row - cells.y, &number, buffer);
             free_from = row + 1;
         }
@@ -80,10 +80,10 @@ struct Down {
 }
 
 fn down(app: &App, frame: &Frame) -> Down {
-    match app.map {
+    match app.view.map {
         MapKind::Stress => Down {
-            name: app.units.length().name,
-            per_window: app.units.length().of(frame.a_m),
+            name: app.view.units.length().name,
+            per_window: app.view.units.length().of(frame.a_m),
         },
         // The window counts passages of 4a.
         MapKind::PressureWaves | MapKind::FilmWaves => Down {

@@ -12,21 +12,21 @@ use crate::tui::view::place::fitting;
 
 /// The map's name, and as many words about it as there is room for.
 pub(super) fn heading(app: &App, areas: &Areas) -> Line<'static> {
-    let theme = app.theme;
-    if app.is_frozen {
+    let theme = app.view.theme;
+    if app.view.is_frozen {
         let slide_roll = app.frame().map_or(0.0, |frame| frame.metrics.slide_roll);
-        let text = format!(" frozen: {} at S {slide_roll:.2} ", app.map.name());
+        let text = format!(" frozen: {} at S {slide_roll:.2} ", app.view.map.name());
         return theme.line(&text, Role::Formula);
     }
-    let mut line = title(theme, "m", app.map.name());
-    if app.map == MapKind::Profile {
+    let mut line = title(theme, "m", app.view.map.name());
+    if app.view.map == MapKind::Profile {
         let (area, _) = profile::rooms(areas.inside(PanelKind::Map));
         let times = profile::exaggeration(app, area);
         let note = format!("y = 0, heights × {} ", sig(times, 2));
         line.push_span(theme.span(note, Role::Dim));
         return line;
     }
-    let notes: &[&str] = match (app.map, app.zoom) {
+    let notes: &[&str] = match (app.view.map, app.view.zoom) {
         (MapKind::Stress, _) => &["x–z plane, y = 0 ", "y = 0 "],
         (MapKind::PressureWaves | MapKind::FilmWaves, _) => &[
             "y = 0, last 2a of travel, now below ",

@@ -47,8 +47,8 @@ fn strip(
 ) {
     /// Columns from one chevron to the next.
     const PITCH: i64 = 4;
-    let theme = app.theme;
-    let unit = app.units.speed();
+    let theme = app.view.theme;
+    let unit = app.view.units.speed();
     let (label, value) = match row.width {
         30.. => (
             format!("body {name} "),

@@ -17,12 +17,12 @@ use asperity_picture::{AboveRange, CONTACT, Look, Palette, Tint};
 
 /// What the map shows and how, in the units of the screen.
 pub(super) fn look(app: &App) -> Look {
-    let unit = match app.map {
-        MapKind::Film | MapKind::Fringes | MapKind::FilmWaves => app.units.film(),
-        MapKind::Roughness => app.units.height(),
-        _ => app.units.pressure(),
+    let unit = match app.view.map {
+        MapKind::Film | MapKind::Fringes | MapKind::FilmWaves => app.view.units.film(),
+        MapKind::Roughness => app.view.units.height(),
+        _ => app.view.units.pressure(),
     };
-    Look::of(app.map.subject(), &app.ranges()).in_unit(unit)
+    Look::of(app.view.map.subject(), &app.ranges()).in_unit(unit)
 }
 
 /// A map with its colours.

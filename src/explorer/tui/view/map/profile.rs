@@ -20,12 +20,12 @@ const ROWS_WITH_TRACE: u16 = 14;
 /// The profile that the explorer shows of a frame.
 pub(super) fn of<'a>(app: &App, frame: &'a Frame) -> Option<SurfaceProfile<'a>> {
     let domain = SurfaceProfile::domain(frame);
-    let x = match app.zoom {
+    let x = match app.view.zoom {
         Zoom::Contact => [domain[0].max(-1.5), domain[1].min(1.4)],
         Zoom::Domain => domain,
     };
     let amplitude_m = frame.metrics.amplitude_1_m.max(frame.metrics.amplitude_2_m);
-    let scale = ProfileScale::of(&app.setup.scene, app.reached.film_m, amplitude_m);
+    let scale = ProfileScale::of(&app.run.setup.scene, app.run.axis_ends.film_m, amplitude_m);
     SurfaceProfile::new(frame, scale, x, &app.ranges())
 }
 
@@ -77,14 +77,14 @@ pub(super) fn side_view(
     let (area, below) = rooms(inner);
     draw(app, &profile, area, buffer);
     if let Some(part) = point_part(app, &profile, frame).filter(|_| !app.is_in_pixels()) {
-        mark(app.theme, area, part, "◆", buffer);
+        mark(app.view.theme, area, part, "◆", buffer);
     }
     point::over(app, below?, profile.x, buffer)
 }
 
 /// Draws the profile, where it is not left to the terminal's own pixels, and its numbers.
 fn draw(app: &App, profile: &SurfaceProfile, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
+    let theme = app.view.theme;
     numbers(app, profile, area, buffer);
     if app.is_in_pixels() {
         return;
@@ -116,8 +116,8 @@ fn point_part(app: &App, profile: &SurfaceProfile, frame: &Frame) -> Option<[f64
 
 /// Heights at the left, x/a and what is what below.
 fn numbers(app: &App, profile: &SurfaceProfile, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme;
-    let unit = app.units.film();
+    let theme = app.view.theme;
+    let unit = app.view.units.film();
     let y = [-profile.half_m(), profile.half_m()];
     let plot = Plot {
         area,

@@ -8,30 +8,29 @@
 //!
 //! Source: Press et al. (2007), *Numerical Recipes*, §12.3: two real transforms in one.
 
-use super::super::layer::Waves;
-use super::super::spec::{StressSpec, Symmetry};
-use super::StressEngine;
+use super::layer::Waves;
+use super::spec::{StressSpec, Symmetry};
 use crate::math::lane_fft::plan_of;
 use crate::math::lane_fft::{LaneFft, Lanes};
 use crate::math::lanes::{LANES, V, transpose};
 
 /// Spectra of pressure and traction at ky ≥ 0 or at −ky, `[block · modes_y + ky]`, sixteen kx each.
-pub(in crate::solve::stress) struct Half {
-    pub(in crate::solve::stress) p: Lanes,
-    pub(in crate::solve::stress) x: Lanes,
+pub(super) struct Half {
+    pub(super) p: Lanes,
+    pub(super) x: Lanes,
 }
 
 /// Spectrum of the surface loaded last.
-pub(in crate::solve::stress) struct Spectrum {
-    pub(in crate::solve::stress) plus: Half,
+pub(super) struct Spectrum {
+    pub(super) plus: Half,
     /// At −ky; `None` for a mirror surface, where it equals `plus`.
-    pub(in crate::solve::stress) minus: Option<Half>,
+    pub(super) minus: Option<Half>,
     /// Whether a traction was loaded.
-    pub(in crate::solve::stress) sheared: bool,
+    pub(super) sheared: bool,
 }
 
 impl Spectrum {
-    pub(in crate::solve::stress) fn new(symmetry: Symmetry, waves: &Waves) -> Self {
+    pub(super) fn new(symmetry: Symmetry, waves: &Waves) -> Self {
         let half = || Half {
             p: Lanes::new(waves.blocks * waves.modes_y),
             x: Lanes::new(waves.blocks * waves.modes_y),
@@ -43,7 +42,7 @@ impl Spectrum {
         }
     }
 
-    pub(in crate::solve::stress) fn lanes(&self) -> impl Iterator<Item = &Lanes> {
+    pub(super) fn lanes(&self) -> impl Iterator<Item = &Lanes> {
         std::iter::once(&self.plus)
             .chain(&self.minus)
             .flat_map(|half| [&half.p, &half.x])
@@ -51,7 +50,7 @@ impl Spectrum {
 }
 
 /// Buffers of the two passes.
-pub(in crate::solve::stress) struct LoadScratch {
+pub(super) struct LoadScratch {
     fft_x: usize,
     fft_y: usize,
     along_y: [Lanes; 2],
@@ -62,7 +61,7 @@ pub(in crate::solve::stress) struct LoadScratch {
 }
 
 impl LoadScratch {
-    pub(in crate::solve::stress) fn new(waves: &Waves, plans: &mut Vec<LaneFft>) -> Self {
+    pub(super) fn new(waves: &Waves, plans: &mut Vec<LaneFft>) -> Self {
         let middle = waves.modes_y.div_ceil(LANES) * waves.n_x;
         let twice = |n: usize| [Lanes::new(n), Lanes::new(n)];
         Self {
@@ -75,26 +74,35 @@ impl LoadScratch {
     }
 
     /// Memory, bytes.
-    pub(in crate::solve::stress) fn bytes(&self) -> usize {
+    pub(super) fn bytes(&self) -> usize {
         let buffers = self.along_y.iter().chain(self.along_x.iter().flatten());
         let all = buffers.chain(&self.middle).map(|lanes| lanes.re.len());
         8 * LANES * all.sum::<usize>()
     }
 
     /// Plan of the whole period along x.
-    pub(in crate::solve::stress) fn fft_x(&self) -> usize {
+    pub(super) fn fft_x(&self) -> usize {
         self.fft_x
     }
 }
 
-impl StressEngine {
+/// A surface on its way to the spectrum.
+pub(super) struct SurfaceLoad<'a> {
+    pub(super) spec: &'a StressSpec,
+    pub(super) waves: &'a Waves,
+    pub(super) plans: &'a [LaneFft],
+    pub(super) work: &'a mut LoadScratch,
+    pub(super) spectrum: &'a mut Spectrum,
+}
+
+impl SurfaceLoad<'_> {
     /// Takes the surface: pressure `p` and, where there is friction, traction `qx` on body 1 along +x, both
     /// in p_h, `[j·nx + i]`, `ny` rows (see [`Symmetry`]). The outermost nodes are the domain's edge, where
     /// the pressure is zero.
     ///
     /// # Panics
     /// When a field has not `nx · ny` values.
-    pub fn load(&mut self, p: &[f32], qx: Option<&[f32]>) {
+    pub(super) fn load(mut self, p: &[f32], qx: Option<&[f32]>) {
         self.transform(p, qx);
         self.spectrum.sheared = qx.is_some();
         let scale = 0.5 / (self.waves.n_x as f64 * self.waves.n_y as f64);
@@ -109,7 +117,7 @@ impl StressEngine {
         for field in std::iter::once(re).chain(im) {
             assert_eq!(field.len(), nodes, "a field has nx · ny values");
         }
-        let (spec, waves, work) = (&self.spec, &self.waves, &mut self.load);
+        let (spec, waves, work) = (self.spec, self.waves, &mut *self.work);
         let signs = match spec.symmetry {
             Symmetry::General | Symmetry::Line => 2,
             Symmetry::MirrorY => 1,
@@ -130,7 +138,7 @@ impl StressEngine {
 
     /// The pass along x; `store` takes the modes at one ky and, as its mate, at −ky.
     fn along_x(&mut self, mut store: impl FnMut(&Lanes, &Lanes, &Waves, usize, &mut Half)) {
-        let (waves, work) = (&self.waves, &mut self.load);
+        let (waves, work) = (self.waves, &mut *self.work);
         let plan = &self.plans[work.fft_x];
         let filled = self.spec.nx.div_ceil(LANES) * LANES;
         for ky_block in 0..waves.modes_y.div_ceil(LANES) {

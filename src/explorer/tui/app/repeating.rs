@@ -3,7 +3,9 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::tui::app::{App, AutoReplay, Effect, RunPace};
+use super::data::{Effect, PointNow};
+use super::state::App;
+use crate::tui::kinds::{AutoReplay, RunPace};
 use crate::tui::replay::{Replay, ReplayMotion};
 use crate::tui::trace::{Chosen, Trace, TraceSample};
 use asperity_engine::sim::{Follow, Rhythm};
@@ -13,19 +15,20 @@ impl App {
     /// Takes what the run says of a passage that repeats; `None`: it does not (any more).
     pub fn take_settled(&mut self, settled: Option<Arc<Settled>>) -> Vec<Effect> {
         // A knob was turned: until the run has heard of it, it still tells of the passage that was left.
-        let settled =
-            settled.filter(|new| !(self.left.as_ref()).is_some_and(|left| Arc::ptr_eq(left, new)));
-        match (&self.held, settled) {
+        let settled = settled.filter(|new| {
+            !(self.replay.settled_before.as_ref()).is_some_and(|old| Arc::ptr_eq(old, new))
+        });
+        match (&self.replay.settled, settled) {
             (None, None) => Vec::new(),
             (Some(old), Some(new)) if Arc::ptr_eq(old, &new) => Vec::new(),
             (_, None) => {
-                self.held = None;
+                self.replay.settled = None;
                 Vec::new()
             }
             (_, Some(new)) => {
-                self.held = Some(new);
+                self.replay.settled = Some(new);
                 let mut effects = self.begin_sweep();
-                if self.auto_replay == AutoReplay::On && self.pace == RunPace::Running {
+                if self.replay.auto == AutoReplay::On && self.run.pace == RunPace::Running {
                     effects.extend(self.begin_replay());
                 }
                 effects
@@ -35,7 +38,7 @@ impl App {
 
     /// Lets time go by: the replay goes on, the tour follows.
     pub fn advance(&mut self, wall: Duration) -> Vec<Effect> {
-        let Some(replay) = &mut self.replay else {
+        let Some(replay) = &mut self.replay.playing else {
             return Vec::new();
         };
         replay.advance(wall.as_secs_f64());
@@ -45,36 +48,31 @@ impl App {
 
     /// Passages of 4 a since the start, those of a replay too.
     pub(super) fn passages(&self) -> f64 {
-        let newest = self.past.back().map_or(0.0, |frame| frame.passages);
-        newest + self.replay.as_ref().map_or(0.0, Replay::passages)
-    }
-
-    /// One period of the passage, where it repeats.
-    pub(super) fn held(&self) -> Option<&Settled> {
-        self.held.as_deref()
+        let newest = self.run.frames.back().map_or(0.0, |frame| frame.passages);
+        newest + self.replay.playing.as_ref().map_or(0.0, Replay::passages)
     }
 
     fn begin_replay(&mut self) -> Vec<Effect> {
-        let replay = self.held.clone().and_then(Replay::new);
+        let replay = self.replay.settled.clone().and_then(Replay::new);
         let Some(replay) = replay else {
             return Vec::new();
         };
-        self.back = 0;
-        self.replay = Some(replay);
+        self.run.frames_back = 0;
+        self.replay.playing = Some(replay);
         self.retrace();
         self.paused_first()
     }
 
     /// Back to the run, which goes on.
     pub(super) fn end_replay(&mut self) -> Vec<Effect> {
-        if self.replay.take().is_none() {
+        if self.replay.playing.take().is_none() {
             return Vec::new();
         }
-        self.trace = Trace::default();
-        match self.pace {
+        self.replay.trace = Trace::default();
+        match self.run.pace {
             RunPace::Running => Vec::new(),
             RunPace::Paused => {
-                self.pace = RunPace::Running;
+                self.run.pace = RunPace::Running;
                 vec![Effect::Send(Command::Pause)]
             }
         }
@@ -83,23 +81,23 @@ impl App {
     /// What a knob that is turned ends.
     pub(super) fn unsettle(&mut self) -> Vec<Effect> {
         let mut effects = self.end_replay();
-        if let Some(held) = self.held.take() {
-            self.left = Some(held);
+        if let Some(settled) = self.replay.settled.take() {
+            self.replay.settled_before = Some(settled);
         }
-        self.auto_replay = AutoReplay::On;
+        self.replay.auto = AutoReplay::On;
         // Whether one goes on is known one drawing later only: what it finds would be of the old knobs.
-        self.sweep = None;
+        self.lives.sweep = None;
         effects.push(Effect::EndSweep);
         effects
     }
 
     pub(super) fn toggle_replay(&mut self) -> Vec<Effect> {
-        if self.replay.is_some() {
-            self.auto_replay = AutoReplay::Off;
+        if self.replay.playing.is_some() {
+            self.replay.auto = AutoReplay::Off;
             return self.end_replay();
         }
         let effects = self.begin_replay();
-        if self.replay.is_none() {
+        if self.replay.playing.is_none() {
             let repeats = self
                 .frame()
                 .and_then(|frame| frame.metrics.repeat)
@@ -117,7 +115,7 @@ impl App {
     }
 
     pub(super) fn replay_faster(&mut self, times: i32) {
-        match &mut self.replay {
+        match &mut self.replay.playing {
             Some(replay) => replay.faster(times),
             None => self.say("a live run has no speed to choose; o replays a passage that repeats"),
         }
@@ -125,7 +123,7 @@ impl App {
 
     /// Pause and single frames of a replay; false: there is none.
     pub(super) fn replay_stepped(&mut self, frames: i32) -> bool {
-        let Some(replay) = &mut self.replay else {
+        let Some(replay) = &mut self.replay.playing else {
             return false;
         };
         match frames {
@@ -139,6 +137,7 @@ impl App {
     /// Whether a replay stands.
     pub fn replay_stands(&self) -> bool {
         self.replay
+            .playing
             .as_ref()
             .is_some_and(|replay| replay.motion() == ReplayMotion::Frozen)
     }
@@ -154,14 +153,16 @@ impl App {
                 place_m: 0.0,
             })
         });
-        self.point.get_or_insert(shown.unwrap_or_default())
+        self.replay.point.get_or_insert(shown.unwrap_or_default())
     }
 
     fn retrace(&mut self) {
         let point = *self.aimed();
-        let Some(replay) = &self.replay else { return };
+        let Some(replay) = &self.replay.playing else {
+            return;
+        };
         let trace = Trace::replayed(replay.settled(), point, replay.at_s());
-        self.trace = trace.unwrap_or_default();
+        self.replay.trace = trace.unwrap_or_default();
     }
 
     pub(super) fn other_body(&mut self) -> Vec<Effect> {
@@ -183,7 +184,12 @@ impl App {
             return Vec::new();
         };
         let by_m = 0.25 * f64::from(quarters) * frame.a_m;
-        let here = self.trace.current().last().map_or(0.0, |sample| sample.x_m);
+        let here = self
+            .replay
+            .trace
+            .current()
+            .last()
+            .map_or(0.0, |sample| sample.x_m);
         self.put_point_m(here + by_m)
     }
 
@@ -194,8 +200,8 @@ impl App {
     }
 
     fn put_point_m(&mut self, x_m: f64) -> Vec<Effect> {
-        let here = self.trace.current().last().map(|sample| sample.x_m);
-        if let (Some(replay), Some(here)) = (&self.replay, here) {
+        let here = self.replay.trace.current().last().map(|sample| sample.x_m);
+        if let (Some(replay), Some(here)) = (&self.replay.playing, here) {
             // Bodies that run towards −x enter on the other side.
             let heading = replay.frame().metrics.entrainment_m_s.signum();
             self.aimed().place_m += heading * (x_m - here);
@@ -229,9 +235,9 @@ impl App {
             2 => (metrics.n_body_2, metrics.n_counted_body_2),
             _ => (metrics.n_body_1, metrics.n_counted_body_1),
         };
-        if let (Some(_), Some(whole)) = (&self.replay, self.trace.counted()) {
-            let sample = *self.trace.current().last()?;
-            let (body, depth_m) = self.trace.point();
+        if let (Some(_), Some(whole)) = (&self.replay.playing, self.replay.trace.counted()) {
+            let sample = *self.replay.trace.current().last()?;
+            let (body, depth_m) = self.replay.trace.point();
             let (expected, average) = of_body(body);
             return Some(PointNow {
                 body,
@@ -253,21 +259,4 @@ impl App {
             closed: point.cycles_before,
         })
     }
-}
-
-/// A material point now.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PointNow {
-    /// Body: 1 or 2.
-    pub body: u8,
-    /// Depth at which its stress is given, m.
-    pub depth_m: f64,
-    /// Where it is and what it feels.
-    pub sample: TraceSample,
-    /// Cycles a crossing by formula: n, expected on average.
-    pub expected: Option<f64>,
-    /// Mean of the crossings that were counted.
-    pub average: Option<f64>,
-    /// Closed cycles: in a replay of this crossing, else of the one before.
-    pub closed: Option<f64>,
 }

@@ -2,6 +2,12 @@
 
 use asperity_picture::Subject;
 
+/// The one so many places further on in a list, round and round.
+pub(crate) fn shifted<T: Copy + PartialEq>(all: &[T], now: T, by: i32) -> T {
+    let place = all.iter().position(|one| *one == now).unwrap_or(0) as i32;
+    all[(place + by).rem_euclid(all.len() as i32) as usize]
+}
+
 /// What is drawn over the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum MapKind {
@@ -46,7 +52,7 @@ impl MapKind {
             Self::Pressure => "pressure",
             Self::Film => "film",
             Self::Fringes => "interferogram",
-            Self::Contact => "touching",
+            Self::Contact => "asperity contact",
             Self::Roughness => "roughness",
             Self::Stress => "stress below",
             Self::PressureWaves => "pressure x-t",
@@ -80,9 +86,8 @@ impl MapKind {
         )
     }
 
-    pub(super) fn shifted(self, by: usize) -> Self {
-        let place = Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0);
-        Self::ALL[(place + by) % Self::ALL.len()]
+    pub(crate) fn shifted(self, by: i32) -> Self {
+        shifted(&Self::ALL, self, by)
     }
 }
 
@@ -133,9 +138,8 @@ impl PanelKind {
         }
     }
 
-    pub(super) fn next(self, by: usize) -> Self {
-        let place = Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0);
-        Self::ALL[(place + by) % Self::ALL.len()]
+    pub(crate) fn shifted(self, by: i32) -> Self {
+        shifted(&Self::ALL, self, by)
     }
 }
 
@@ -167,13 +171,8 @@ impl PointQuantity {
         }
     }
 
-    pub(super) fn next(self) -> Self {
-        match self {
-            Self::Pressure => Self::Excess,
-            Self::Excess => Self::Shear,
-            Self::Shear => Self::Effective,
-            Self::Effective => Self::Pressure,
-        }
+    pub(crate) fn next(self) -> Self {
+        shifted(&Self::ALL, self, 1)
     }
 }
 
@@ -190,12 +189,8 @@ pub enum CurveKind {
 }
 
 impl CurveKind {
-    pub(super) fn next(self) -> Self {
-        match self {
-            Self::Life => Self::Friction,
-            Self::Friction => Self::Stribeck,
-            Self::Stribeck => Self::Life,
-        }
+    pub(crate) fn next(self) -> Self {
+        shifted(&[Self::Life, Self::Friction, Self::Stribeck], self, 1)
     }
 }
 
