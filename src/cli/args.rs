@@ -277,7 +277,7 @@ pub(crate) struct RunArgs {
 }
 
 /// A run without a screen, which may be saved and taken up again.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct HeadlessArgs {
     #[command(flatten)]
     pub(crate) run: RunArgs,
@@ -307,66 +307,32 @@ pub(crate) struct HeadlessArgs {
 }
 
 impl HeadlessArgs {
-    /// A run that is neither saved nor taken up.
-    pub(crate) fn whole(run: RunArgs) -> Self {
-        Self {
-            run,
-            save_state: None,
-            from_state: None,
-            from: None,
-            beside: None,
-            by: CompareBy::Time,
-        }
-    }
-
     /// The same run with a key set, recorded to that file.
     #[cfg(feature = "rerun")]
     pub(crate) fn with(&self, key: &str, value: &str, out: &std::path::Path) -> Self {
-        let mut run = self.run.clone();
-        run.scene.settings.push(format!("{key}={value}"));
-        run.out = Some(out.to_owned());
+        let mut args = self.clone();
+        args.beside = None;
+        args.run.out = Some(out.to_owned());
+        let settings = &mut args.run.scene.settings;
+        settings.push(format!("{key}={value}"));
         if self.by == CompareBy::Place {
             // Crests pass a place between two pictures: with all of them the nearest is within a step.
-            run.scene.settings.push("record.every_steps=1".to_owned());
+            settings.push("record.every_steps=1".to_owned());
         }
-        Self::whole(run)
+        args
     }
 }
 
 impl RunArgs {
-    /// What a bare `asperity` means on a terminal.
+    /// What a line without an option means.
+    #[cfg(feature = "tui")]
     pub(crate) fn bare() -> Self {
-        Self {
-            scene: SceneArgs {
-                scene: presets::DEFAULT.to_owned(),
-                settings: Vec::new(),
-                passages: None,
-            },
-            out: None,
-            table: None,
-            export: None,
-            export_as: vec![Format::Npz],
-            export_every: 16,
-            summary: None,
-            threads: None,
-            connect: None,
-            spawn: false,
-            serve: None,
-            hold: false,
-            no_record: false,
-            force: false,
+        #[derive(Parser)]
+        struct Line {
+            #[command(flatten)]
+            run: RunArgs,
         }
-    }
-
-    /// What a bare `asperity` means elsewhere: one passage to a file that belongs to it.
-    pub(crate) fn bare_headless() -> Self {
-        let mut args = Self::bare();
-        args.scene.passages = Some(1.0);
-        if cfg!(feature = "rerun") {
-            args.out = Some(PathBuf::from("asperity.rrd"));
-        }
-        args.force = true;
-        args
+        Line::parse_from(["asperity"]).run
     }
 
     /// Worker threads.
@@ -376,7 +342,7 @@ impl RunArgs {
 }
 
 /// As many as asked for, or one for each core.
-fn threads(asked: Option<u16>) -> usize {
+pub(crate) fn threads(asked: Option<u16>) -> usize {
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     asked.map_or_else(all, usize::from)
 }

@@ -28,7 +28,7 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
-use args::{Cli, CliCommand, HeadlessArgs, RunArgs};
+use args::{Cli, CliCommand, RunArgs};
 use asperity_session::run::{Request, RunError, Session};
 use failure::Failure;
 
@@ -46,41 +46,44 @@ pub(crate) fn main(engine: Engine) -> ExitCode {
             return failure::answer(&error);
         }
     };
-    match dispatch(cli.command, engine) {
+    match dispatch(cli.command.unwrap_or_else(bare), engine) {
         Ok(code) => ExitCode::from(code),
         Err(failure) => failure.report(),
     }
 }
 
-fn dispatch(command: Option<CliCommand>, engine: Engine) -> Result<u8, Failure> {
+fn dispatch(command: CliCommand, engine: Engine) -> Result<u8, Failure> {
     match command {
-        None => bare(engine),
-        Some(CliCommand::Run(args)) => run::run(&args),
-        Some(CliCommand::Explore { run, lesson }) => explore(&run, lesson.as_deref(), engine),
-        Some(CliCommand::Check(args)) => scenes::check(&args),
-        Some(CliCommand::Scenes { name }) => scenes::scenes(name.as_deref()),
-        Some(CliCommand::Study(args)) => study::study(&args),
-        Some(CliCommand::Sweep(args)) => sweep::sweep(&args),
+        CliCommand::Run(args) => run::run(&args),
+        CliCommand::Explore { run, lesson } => explore(&run, lesson.as_deref(), engine),
+        CliCommand::Check(args) => scenes::check(&args),
+        CliCommand::Scenes { name } => scenes::scenes(name.as_deref()),
+        CliCommand::Study(args) => study::study(&args),
+        CliCommand::Sweep(args) => sweep::sweep(&args),
         #[cfg(feature = "rerun")]
-        Some(CliCommand::Compare(args)) => beside::compare(&args),
+        CliCommand::Compare(args) => beside::compare(&args),
         #[cfg(feature = "rerun")]
-        Some(CliCommand::Export(args)) => export::export(&args),
+        CliCommand::Export(args) => export::export(&args),
         #[cfg(not(feature = "rerun"))]
-        Some(CliCommand::Compare(_) | CliCommand::Export(_)) => {
+        CliCommand::Compare(_) | CliCommand::Export(_) => {
             Err(Failure::without_recorder("reads no recordings"))
         }
-        Some(CliCommand::View { file }) => view::view(&file),
+        CliCommand::View { file } => view::view(&file),
     }
 }
 
-/// Without a word: the explorer on a terminal, one recorded passage elsewhere.
-fn bare(engine: Engine) -> Result<u8, Failure> {
+/// Without a word: the explorer on a terminal; elsewhere one passage, recorded to a file that belongs to it.
+fn bare() -> CliCommand {
     let on_a_terminal = std::io::stdout().is_terminal() && std::io::stdin().is_terminal();
-    if on_a_terminal && cfg!(feature = "tui") {
-        explore(&RunArgs::bare(), None, engine)
+    let line = if on_a_terminal && cfg!(feature = "tui") {
+        "asperity explore"
+    } else if cfg!(feature = "rerun") {
+        "asperity run --passages=1 --force --out=asperity.rrd"
     } else {
-        run::run(&HeadlessArgs::whole(RunArgs::bare_headless()))
-    }
+        "asperity run --passages=1 --force"
+    };
+    let command = Cli::parse_from(line.split(' ')).command;
+    command.expect("a line with a command")
 }
 
 #[cfg(feature = "tui")]

@@ -2,59 +2,65 @@
 
 mod complaints;
 mod life;
-mod motion;
 
 use std::fmt::Write as _;
 
-use asperity_engine::math::number::{counted, seconds, sig};
+use asperity_engine::math::number::{GPA, NM, UM, counted, seconds, sig};
 use asperity_engine::scene::{ContactKind, Scene};
 use asperity_engine::sim::{CATALOGUE, LubricationRegime, Rhythm, Summary};
 use asperity_session::run::{End, Outcome};
 
 pub(crate) use self::complaints::complaints;
-use self::life::push_life;
+
+/// Lines of the report: a name, and what there is to say.
+#[derive(Default)]
+struct Lines(String);
+
+impl Lines {
+    fn add(&mut self, name: &str, what: impl AsRef<str>) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(self.0, "{name:<14} {}", what.as_ref());
+    }
+}
+
+/// What `text` says of a value, or nothing where it is not known.
+fn known<T>(value: Option<T>, text: impl FnOnce(T) -> String) -> String {
+    value.map_or_else(String::new, text)
+}
 
 /// The outcome as text. `errors`: the discretisation error in words.
 pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> String {
-    let mut text = String::new();
+    let mut lines = Lines::default();
     if !scene.title.is_empty() {
-        text.push_str(&scene.title);
-        text.push_str("\n\n");
+        lines.0 = format!("{}\n\n", scene.title);
     }
     if let Some(summary) = &outcome.summary {
-        line(&mut text, "run", &run_line(outcome));
-        push_results(&mut text, scene, summary);
+        lines.add("run", run_line(outcome));
+        add_results(&mut lines, scene, summary);
         if let Some(errors) = errors {
-            line(&mut text, "discretisation", errors);
+            lines.add("discretisation", errors);
         }
     }
     for report in &outcome.reports {
-        let skipped = if report.skipped > 0 {
-            format!(", {} skipped", report.skipped)
-        } else {
-            String::new()
-        };
-        let size = if report.bytes > 0 {
-            format!(", {:.1} MB", report.bytes as f64 * 1e-6)
-        } else {
-            String::new()
-        };
-        let note = if report.note.is_empty() {
-            String::new()
-        } else {
-            format!("; {}", report.note)
-        };
-        let what = format!(
-            "{} ({}{skipped}{size}{note})",
-            report.output,
-            counted(report.frames, "frame")
+        let mut notes = vec![counted(report.frames, "frame")];
+        if report.skipped > 0 {
+            notes.push(format!("{} skipped", report.skipped));
+        }
+        if report.bytes > 0 {
+            notes.push(format!("{:.1} MB", report.bytes as f64 * 1e-6));
+        }
+        let note = known(Some(&report.note).filter(|note| !note.is_empty()), |note| {
+            format!("; {note}")
+        });
+        lines.add(
+            "written",
+            format!("{} ({}{note})", report.output, notes.join(", ")),
         );
-        line(&mut text, "written", &what);
         if let Some(queue) = &report.queue {
-            line(&mut text, "", &queue.to_string());
+            lines.add("", queue.to_string());
         }
     }
-    text
+    lines.0
 }
 
 fn run_line(outcome: &Outcome) -> String {
@@ -65,15 +71,11 @@ fn run_line(outcome: &Outcome) -> String {
         (_, 0) => "converged".to_owned(),
         (_, n) => format!("{} did not converge", counted(n, "step")),
     };
-    let pace = outcome
-        .steps_per_s
-        .map(|pace| format!(", {pace:.1} steps per second after the start-up"))
-        .unwrap_or_default();
-    format!(
-        "{how}; {} in {:.1} s{pace}",
-        counted(outcome.steps, "step"),
-        outcome.wall_s
-    )
+    let pace = known(outcome.steps_per_s, |pace| {
+        format!(", {pace:.1} steps per second after the start-up")
+    });
+    let steps = counted(outcome.steps, "step");
+    format!("{how}; {steps} in {:.1} s{pace}", outcome.wall_s)
 }
 
 /// A run that was stopped, with what it has done of what it was to do.
@@ -89,78 +91,83 @@ pub(crate) fn stopped(outcome: &Outcome) -> String {
     )
 }
 
-fn push_results(text: &mut String, scene: &Scene, s: &Summary) {
-    let zone = match scene.kind() {
-        ContactKind::Point => "Hertz ellipse",
-        ContactKind::Line => "Hertz width",
-    };
-    let contact = format!(
-        "a {} µm, Hertz pressure {} GPa, load {}",
-        sig(s.a_m * 1e6, 4),
-        sig(s.p_hertz_pa * 1e-9, 4),
-        load(scene, s.load_n)
+fn add_results(lines: &mut Lines, scene: &Scene, s: &Summary) {
+    lines.add(
+        "contact",
+        format!(
+            "a {}, Hertz pressure {}, load {}",
+            UM.show(s.a_m, 4),
+            GPA.show(s.p_hertz_pa, 4),
+            load(scene, s.load_n)
+        ),
     );
-    line(text, "contact", &contact);
-    line(text, "motion", &motion::text(scene));
-    let pressure = format!(
-        "greatest {} GPa = {} times Hertz; mean of the steps' greatest {} GPa",
-        sig(s.p_max_greatest_pa * 1e-9, 4),
-        sig(s.p_max_greatest_pa / s.p_hertz_pa, 3),
-        sig(s.p_max_pa * 1e-9, 4)
+    lines.add("motion", motion(scene));
+    lines.add(
+        "pressure",
+        format!(
+            "maximum {} = {} times Hertz; mean of the steps' maxima {}",
+            GPA.show(s.p_max_greatest_pa, 4),
+            sig(s.p_max_greatest_pa / s.p_hertz_pa, 3),
+            GPA.show(s.p_max_pa, 4)
+        ),
     );
-    line(text, "pressure", &pressure);
     let film = match s.regime {
         // What its solver leaves between dry bodies is rounding, of either sign.
         LubricationRegime::Dry => "none: the contact is dry".to_owned(),
-        _ => format!(
-            "central {} nm, least {} nm; mean of the steps' least {} nm",
-            nm(s.h_central_m),
-            nm(s.h_min_least_m),
-            nm(s.h_min_m)
-        ),
+        LubricationRegime::Boundary | LubricationRegime::Mixed | LubricationRegime::FullFilm => {
+            format!(
+                "central {}, minimum {}; mean of the steps' minima {}",
+                NM.show(s.h_central_m, 3),
+                NM.show(s.h_min_least_m, 3),
+                NM.show(s.h_min_m, 3)
+            )
+        }
     };
-    line(text, "film", &film);
-    line(text, "regime", &regime(s, zone));
-    line(
-        text,
+    lines.add("film", film);
+    lines.add("regime", regime(scene, s));
+    lines.add(
         "friction",
-        &format!("coefficient {}", sig(s.friction_coefficient, 3)),
+        format!("coefficient {}", sig(s.friction_coefficient, 3)),
     );
     if s.n_body_1.is_some() || s.n_body_2.is_some() {
-        let cycles = format!(
-            "per passage of body 1: {}; of body 2: {}",
+        let [one, two] = [
             cycles(s.n_body_1, s.n_counted_body_1),
-            cycles(s.n_body_2, s.n_counted_body_2)
+            cycles(s.n_body_2, s.n_counted_body_2),
+        ];
+        lines.add(
+            "cycles",
+            format!("per passage of body 1: {one}; of body 2: {two}"),
         );
-        line(text, "cycles", &cycles);
     }
-    if let (Some(stress), Some(depth), Some(x)) = (
+    if let (Some(stress_pa), Some(depth_m), Some(x_m)) = (
         s.sigma_eff_max_pa,
         s.sigma_eff_max_depth_m,
         s.sigma_eff_max_x_m,
     ) {
-        let stress = format!(
-            "greatest effective stress {} GPa, {} µm deep at x = {} µm",
-            sig(stress * 1e-9, 4),
-            sig(depth * 1e6, 3),
-            sig(x * 1e6, 3)
+        lines.add(
+            "stress",
+            format!(
+                "maximum effective stress {}, {} deep at x = {}",
+                GPA.show(stress_pa, 4),
+                UM.show(depth_m, 3),
+                UM.show(x_m, 3)
+            ),
         );
-        line(text, "stress", &stress);
     }
     if let Some(repetition) = repetition(s) {
-        line(text, "passage", &repetition);
+        lines.add("passage", repetition);
     }
-    push_by_itself(text, scene, s);
-    push_life(text, scene, s);
+    add_by_itself(lines, scene, s);
+    life::add_life(lines, scene, s);
     let (load, mass) = (s.load_error, s.mass_error);
-    line(text, "errors", &format!("load {load:.1e}, mass {mass:.1e}"));
+    lines.add("errors", format!("load {load:.1e}, mass {mass:.1e}"));
     for (k, caution) in s.cautions.iter().enumerate() {
-        line(text, if k == 0 { "cautions" } else { "" }, &caution.text);
+        lines.add(if k == 0 { "cautions" } else { "" }, &caution.text);
     }
 }
 
 /// Quantities that the catalogue shows by themselves.
-fn push_by_itself(text: &mut String, scene: &Scene, s: &Summary) {
+fn add_by_itself(lines: &mut Lines, scene: &Scene, s: &Summary) {
     for quantity in CATALOGUE {
         let sums = quantity.over.iter().filter_map(|(over, key)| {
             let value = (*s.by_itself.get(*key)?)?;
@@ -169,14 +176,31 @@ fn push_by_itself(text: &mut String, scene: &Scene, s: &Summary) {
         });
         let sums: Vec<String> = sums.collect();
         if !sums.is_empty() {
-            let what = format!("{}: {}", quantity.meaning, sums.join(", "));
-            line(text, quantity.symbol, &what);
+            lines.add(
+                quantity.symbol,
+                format!("{}: {}", quantity.meaning, sums.join(", ")),
+            );
         }
     }
 }
 
-fn nm(value_m: f64) -> String {
-    sig(value_m * 1e9, 3)
+/// S and the speeds of both bodies, as the scene says: titles do not know what `--set` changed.
+fn motion(scene: &Scene) -> String {
+    let motion = &scene.motion;
+    let when = if scene.events.is_empty() {
+        ""
+    } else {
+        " at the start, before the scene's events"
+    };
+    let [one, two] = [-0.5, 0.5].map(|half| {
+        let speed_m_s = motion.entrainment_m_s * (1.0 + half * motion.slide_roll);
+        sig(speed_m_s, 3)
+    });
+    format!(
+        "S = {}, U {} m/s; body 1 {one} m/s, body 2 {two} m/s{when}",
+        sig(motion.slide_roll, 3),
+        sig(motion.entrainment_m_s, 3),
+    )
 }
 
 /// A load with the unit of the scene's kind of contact.
@@ -188,83 +212,77 @@ fn load(scene: &Scene, value: f64) -> String {
     format!("{} {unit}", sig(value, 4))
 }
 
-/// Who carries the load.
-fn regime(s: &Summary, zone: &str) -> String {
-    let lambda = s.lambda_ratio.map_or_else(String::new, |lambda| {
+/// What carries the load.
+fn regime(scene: &Scene, s: &Summary) -> String {
+    let zone = match scene.kind() {
+        ContactKind::Point => "Hertz ellipse",
+        ContactKind::Line => "Hertz width",
+    };
+    let lambda = known(s.lambda_ratio, |lambda| {
         let lambda = sig(lambda, 3);
         format!(", λ {lambda} (smooth central film by formula over composite roughness)")
     });
     format!(
-        "{}{lambda}; {} % of the {zone} touches and carries {} % of the load",
+        "{}{lambda}; asperity contact on {} % of the {zone}, which carries {} % of the load",
         s.regime.name(),
         sig(s.contact_ratio * 100.0, 3),
         sig(s.contact_load_ratio * 100.0, 3)
     )
 }
 
-fn four(life: f64) -> String {
-    sig(life, 4)
-}
-
 /// The discretisation error of a run, from a companion on `nodes` that took `wall_s`.
 pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: f64) -> String {
     let is_dry = s.regime == LubricationRegime::Dry;
-    let share = |error: Option<f64>, value: f64| {
-        error.map_or_else(
-            || "unknown".to_owned(),
-            |error| format!("{} %", sig(100.0 * error / value, 2)),
-        )
+    let mut parts = Vec::new();
+    let mut add = |name: &str, error: Option<f64>, value: f64| {
+        let percent = error.map(|error| format!("{} %", sig(100.0 * error / value, 2)));
+        parts.push(format!(
+            "{name} {}",
+            percent.as_deref().unwrap_or("unknown")
+        ));
     };
-    let life = s.error_ln_life.map_or_else(String::new, |error| {
-        format!(", life a factor of {}", sig(error.exp(), 3))
-    });
-    let limit = match (s.h_central_extrapolated_m, s.life_extrapolated) {
-        (_, Some(life)) if is_dry => format!("; extrapolated: life {}", four(life)),
-        (Some(film), Some(life)) => {
-            let (film, life) = (nm(film), four(life));
-            format!("; extrapolated: central film {film} nm, life {life}")
+    if !is_dry {
+        add("central film", s.error_h_central_m, s.h_central_m);
+        add("minimum film", s.error_h_min_m, s.h_min_m);
+    }
+    add("maximum pressure", s.error_p_max_pa, s.p_max_pa);
+    if s.friction_coefficient != 0.0 {
+        add(
+            "friction",
+            s.error_friction_coefficient,
+            s.friction_coefficient,
+        );
+    }
+    // Shares are in per cent already: their errors are in per cent of the ellipse and of the load, not of themselves.
+    for (name, value, error) in [
+        ("asperity contact", s.contact_ratio, s.error_contact_ratio),
+        (
+            "load on it",
+            s.contact_load_ratio,
+            s.error_contact_load_ratio,
+        ),
+    ] {
+        if let Some(error) = error.filter(|_| value > 0.0) {
+            let (value, error) = (sig(100.0 * value, 3), sig(100.0 * error, 2));
+            parts.push(format!("{name} ({value} ± {error}) %"));
         }
-        (Some(film), None) if !is_dry => {
-            format!("; extrapolated: central film {} nm", nm(film))
-        }
-        _ => String::new(),
-    };
-    let films = if is_dry {
+    }
+    if let Some(error) = s.error_ln_life {
+        parts.push(format!("life a factor of {}", sig(error.exp(), 3)));
+    }
+    let film_m = s.h_central_extrapolated_m.filter(|_| !is_dry);
+    let film = film_m.map(|film_m| format!("central film {}", NM.show(film_m, 3)));
+    let life = s
+        .life_extrapolated
+        .map(|life| format!("life {}", sig(life, 4)));
+    let limits: Vec<String> = film.into_iter().chain(life).collect();
+    let limit = if limits.is_empty() {
         String::new()
     } else {
-        format!(
-            "central film {}, least film {}, ",
-            share(s.error_h_central_m, s.h_central_m),
-            share(s.error_h_min_m, s.h_min_m)
-        )
+        format!("; extrapolated: {}", limits.join(", "))
     };
-    // Touching spots are in per cent already: their errors are in per cent of the ellipse and of the load, not of themselves.
-    let part = |name: &str, value: f64, error: Option<f64>| {
-        error
-            .filter(|_| value > 0.0)
-            .map_or_else(String::new, |error| {
-                let (value, error) = (sig(100.0 * value, 3), sig(100.0 * error, 2));
-                format!(", {name} ({value} ± {error}) %")
-            })
-    };
-    let area = part("touching area", s.contact_ratio, s.error_contact_ratio);
-    let load = part(
-        "load on it",
-        s.contact_load_ratio,
-        s.error_contact_load_ratio,
-    );
-    let friction = if s.friction_coefficient == 0.0 {
-        String::new()
-    } else {
-        format!(
-            ", friction {}",
-            share(s.error_friction_coefficient, s.friction_coefficient)
-        )
-    };
-    format!(
-        "{films}greatest pressure {}{friction}{area}{load}{life}; from {nodes} nodes in {wall_s:.1} s{limit}",
-        share(s.error_p_max_pa, s.p_max_pa),
-    )
+    let parts = parts.join(", ");
+    format!("{parts}; from {nodes} nodes in {wall_s:.1} s{limit}")
 }
 
 /// Whether the passage repeats, in words.
@@ -279,23 +297,16 @@ fn repetition(s: &Summary) -> Option<String> {
         Rhythm::Orbit => format!("both bodies' waves come back after {}", seconds(period)),
         Rhythm::Statistics => "no common period of both bodies' waves; means".to_owned(),
     };
-    let verdict = if repeats {
+    let not = if repeats {
         "repeats"
     } else {
         "does not repeat"
     };
-    Some(format!("{verdict}: {what}, {drift}"))
+    Some(format!("{not}: {what}, {drift}"))
 }
 
 fn cycles(formula: Option<f64>, counted: Option<f64>) -> String {
     let formula = formula.map_or_else(|| "never ends".to_owned(), |n| sig(n, 3));
-    match counted {
-        Some(counted) => format!("{formula} (counted {})", sig(counted, 3)),
-        None => formula,
-    }
-}
-
-fn line(text: &mut String, name: &str, what: &str) {
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "{name:<14} {what}");
+    let counted = known(counted, |n| format!(" (counted {})", sig(n, 3)));
+    format!("{formula}{counted}")
 }

@@ -12,7 +12,7 @@ use asperity_session::sweep::{
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::args::{SweepArgs, SweepCommand, SweepShown};
+use super::args::{SweepArgs, SweepCommand, SweepShown, threads};
 use super::failure::{Failure, tell};
 use super::scenes::{print, print_lines};
 use super::signals::stop_on_signals;
@@ -45,10 +45,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     let progress = Arc::new(Progress::default());
     watch_signals(&progress)?;
     let folder = Folder::create(&root, &sweep, existing)?;
-    let threads = args.threads.map_or_else(
-        || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
-        usize::from,
-    );
+    let threads = threads(args.threads);
     let (cases, cost) = cost(&sweep, args.shard)?;
     tell(&format!(
         "{cases} cases, an estimated {} on one core from cold starts",

@@ -14,6 +14,8 @@
 #[cfg(not(target_arch = "wasm32"))]
 pub mod chart;
 #[cfg(not(target_arch = "wasm32"))]
+mod draw;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod export;
 pub mod interferogram;
 pub mod profile;
@@ -29,7 +31,7 @@ use asperity_engine::math::number::{GPA, MPA, UM, Unit, divisions, tick};
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::Frame;
 
-/// Where bodies touch, in every picture that marks it.
+/// Asperity contact, in every picture that marks it.
 pub const CONTACT: [u8; 3] = [90, 255, 250];
 /// Film above the range, in maps and over time: the bath around the contact is ten to a hundred times thicker, and would
 /// drown the film within in the top colour.
@@ -350,7 +352,7 @@ pub struct Picture<'a> {
     pub y: NodeAxis<'a>,
     /// Whether rows are depths.
     pub is_below: bool,
-    /// 1 where bodies touch, node by node; empty: below the surface.
+    /// 1 in asperity contact, node by node; empty: below the surface.
     pub contact: &'a [u8],
     /// Kind and half-widths (m) of Hertz's contact.
     pub hertz: (ContactKind, [f64; 2]),
@@ -389,7 +391,7 @@ impl<'a> Picture<'a> {
         self.values[j * self.x.nodes() + i]
     }
 
-    /// Whether bodies touch at a node.
+    /// Whether a node is in asperity contact.
     pub fn touches(&self, i: usize, j: usize) -> bool {
         self.contact.get(j * self.x.nodes() + i) == Some(&1)
     }

@@ -16,7 +16,7 @@ use asperity_engine::sim::{Frame, StressSlice};
 
 /// Depth to which a body is drawn at the edge of the picture, in half-widths.
 pub const DEEP: f64 = 0.6;
-/// Oil at the greatest and at no pressure, bodies without stress.
+/// Oil at the maximum pressure of the range and at none, bodies without stress.
 const OIL: [[f32; 3]; 2] = [[255.0, 214.0, 102.0], [74.0, 50.0, 16.0]];
 const STEEL: [[f32; 3]; 2] = [[116.0, 112.0, 92.0], [112.0, 96.0, 116.0]];
 
@@ -27,7 +27,7 @@ pub enum Matter {
     Body(u8, f32, f32),
     /// Oil, by its pressure over the range's.
     Oil(f32),
-    /// The bodies touch.
+    /// Asperity contact.
     Touching,
 }
 

@@ -391,10 +391,10 @@ fn of_the_passage(w: &Written) -> Vec<Row> {
     };
     let rows = [
         mean("h_central_m", w.said("film", "central ", 1e9)),
-        mean("h_min_m", w.said("film", "mean of the steps' least ", 1e9)),
+        mean("h_min_m", w.said("film", "mean of the steps' minima ", 1e9)),
         mean(
             "p_max_pa",
-            w.said("pressure", "mean of the steps' greatest ", 1e-9),
+            w.said("pressure", "mean of the steps' maxima ", 1e-9),
         ),
         mean("contact_ratio", None),
         mean(
@@ -411,7 +411,7 @@ fn of_the_passage(w: &Written) -> Vec<Row> {
             &[
                 ("summary", w.summary("p_max_greatest_pa")),
                 ("table's greatest", w.extreme("p_max_pa", f64::max)),
-                ("report", w.said("pressure", "greatest ", 1e-9)),
+                ("report", w.said("pressure", "maximum ", 1e-9)),
             ],
         ),
         row(
@@ -419,7 +419,7 @@ fn of_the_passage(w: &Written) -> Vec<Row> {
             &[
                 ("summary", w.summary("h_min_least_m")),
                 ("table's least", w.extreme("h_min_m", f64::min)),
-                ("report", w.said("film", ", least ", 1e9)),
+                ("report", w.said("film", ", minimum ", 1e9)),
             ],
         ),
         row(

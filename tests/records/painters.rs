@@ -156,10 +156,10 @@ fn recorded(contents: &Contents, shown: &Shown, step: i64, columns: usize) -> Ve
 /// The pixels of an exported map: red, green, blue of the axes' inside, and its size.
 fn exported(file: &Path) -> (Vec<Rgb>, [usize; 2]) {
     /// Room around the axes.
-    const LEFT: usize = 92;
-    const ABOVE_THEM: usize = 74;
-    const RIGHT: usize = 116;
-    const BELOW_THEM: usize = 58;
+    const LEFT: usize = 69;
+    const ABOVE_THEM: usize = 87;
+    const RIGHT: usize = 103;
+    const BELOW_THEM: usize = 63;
     let reader = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(file).unwrap()));
     let mut reader = reader.read_info().unwrap();
     let mut bytes = vec![0; reader.output_buffer_size().unwrap()];

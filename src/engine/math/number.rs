@@ -133,7 +133,9 @@ pub const MM: f64 = 1.0e3;
 pub const GPA: Unit = Unit::new("GPa", 1e-9);
 /// Of shear.
 pub const MPA: Unit = Unit::new("MPa", 1e-6);
-/// Of films and heights.
+/// Of films.
+pub const NM: Unit = Unit::new("nm", 1e9);
+/// Of heights and places.
 pub const UM: Unit = Unit::new("µm", 1e6);
 
 /// A unit: its name, and how many of it make one SI unit.

@@ -1,15 +1,11 @@
 //! A map of coloured cells with its bar.
 
-use plotters::coord::Shift;
-use plotters::prelude::*;
-
-use super::{BELOW, BESIDE, Chart, Drawn, FONT, SIZE, Scale, told};
+use super::{Layout, Scale, axis, titled};
 use crate::Ramp;
+use crate::draw::{Axis, ColourBar, Drawing, PixelField, Rgb, Side};
 
-/// Width of the bar with its numbers, pixels.
-const BAR: u32 = 150;
 /// A cell without a value.
-const EMPTY: RGBColor = RGBColor(230, 230, 230);
+const EMPTY: Rgb = [230; 3];
 
 /// A figure of cells: `rows[j][i]` at the i-th x, the j-th y.
 #[derive(Debug, Clone)]
@@ -26,95 +22,62 @@ pub struct HeatMap {
     pub rows: Vec<Vec<f64>>,
 }
 
-impl Chart for HeatMap {
-    fn draw<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Result<Drawn, String> {
-        let values = self.rows.iter().flatten();
-        let places = values.filter_map(|v| self.value.1.place(*v));
-        let ends = places.fold(None, |ends: Option<(f64, f64)>, at| {
-            let (low, high) = ends.unwrap_or((at, at));
-            Some((low.min(at), high.max(at)))
+impl Layout for HeatMap {
+    fn drawing(&self) -> Option<Drawing> {
+        let scale = self.value.1;
+        let places = self.rows.iter().flatten().filter_map(|v| scale.place(*v));
+        let ends = places.fold(None, |ends: Option<[f64; 2]>, at| {
+            let [low, high] = ends.unwrap_or([at, at]);
+            Some([low.min(at), high.max(at)])
         });
-        let Some(ends) = ends else {
-            return Ok(Drawn::Nothing);
-        };
-        let (main, side) = area.split_horizontally(SIZE.0 - BAR);
-        self.draw_cells(&main, ends)?;
-        self.draw_bar(&side, ends)?;
-        Ok(Drawn::Something)
-    }
-}
-
-impl HeatMap {
-    fn draw_cells<DB: DrawingBackend>(
-        &self,
-        area: &DrawingArea<DB, Shift>,
-        (low, high): (f64, f64),
-    ) -> Result<(), String> {
+        let [low, high] = ends?;
+        let range = axis(scale, [low, high.max(low + 1e-9)], &self.value.0);
         let (xs, ys) = (edges(&self.x.1), edges(&self.y.1));
-        let ends = |edges: &[f64]| edges[0]..edges[edges.len() - 1];
-        let mut chart = ChartBuilder::on(area)
-            .caption(&self.title, (FONT, 20))
-            .margin(12)
-            .x_label_area_size(BELOW)
-            .y_label_area_size(BESIDE)
-            .build_cartesian_2d(ends(&xs), ends(&ys))
-            .map_err(told)?;
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .x_desc(&self.x.0)
-            .y_desc(&self.y.0)
-            .axis_desc_style((FONT, 15))
-            .label_style((FONT, 14))
-            .x_label_formatter(&|v| Scale::Linear.label(*v))
-            .y_label_formatter(&|v| Scale::Linear.label(*v))
-            .draw()
-            .map_err(told)?;
-        let mut cells = Vec::new();
-        for (row, y) in self.rows.iter().zip(ys.windows(2)) {
-            for (value, x) in row.iter().zip(xs.windows(2)) {
-                let colour = match self.value.1.place(*value) {
-                    Some(place) => shade((place - low) / (high - low).max(1e-300)),
-                    None => EMPTY,
-                };
-                let corners = [(x[0], y[0]), (x[1], y[1])];
-                cells.push(Rectangle::new(corners, colour.filled()));
-            }
-        }
-        chart.draw_series(cells).map_err(told)?;
-        Ok(())
-    }
-
-    fn draw_bar<DB: DrawingBackend>(
-        &self,
-        area: &DrawingArea<DB, Shift>,
-        (low, high): (f64, f64),
-    ) -> Result<(), String> {
-        const STEPS: usize = 64;
-        let high = if high > low { high } else { low + 1e-9 };
-        let mut chart = ChartBuilder::on(area)
-            .caption(&self.value.0, (FONT, 14))
-            .margin(12)
-            .margin_top(24)
-            .margin_bottom(BELOW + 12)
-            .y_label_area_size(64)
-            .build_cartesian_2d(0.0..1.0, low..high)
-            .map_err(told)?;
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .disable_x_axis()
-            .label_style((FONT, 13))
-            .y_label_formatter(&|v| self.value.1.label(*v))
-            .draw()
-            .map_err(told)?;
-        let at = |k: usize| low + (high - low) * k as f64 / STEPS as f64;
-        let steps = (0..STEPS).map(|k| {
-            let colour = shade((k as f64 + 0.5) / STEPS as f64);
-            Rectangle::new([(0.0, at(k)), (1.0, at(k + 1))], colour.filled())
+        let outer = |edges: &[f64]| [edges[0], edges[edges.len() - 1]];
+        let x = axis(Scale::Linear, outer(&xs), &self.x.0);
+        let y = axis(Scale::Linear, outer(&ys), &self.y.0);
+        let (mut drawing, plot) = titled(&self.title, 8.5);
+        let [columns, rows] = [plot.wide, plot.high].map(|side| side as u32);
+        // A pixel's cell: the last whose edge lies before its middle.
+        let cells = |axis: &Axis, edges: &[f64], pixels: u32| -> Vec<usize> {
+            let inner: Vec<f64> = edges[1..edges.len() - 1]
+                .iter()
+                .map(|at| axis.share(*at))
+                .collect();
+            let middles = (0..pixels).map(|k| (f64::from(k) + 0.5) / f64::from(pixels));
+            middles
+                .map(|middle| inner.partition_point(|edge| *edge <= middle))
+                .collect()
+        };
+        let (across, up) = (cells(&x, &xs, columns), cells(&y, &ys, rows));
+        let colour = |i: usize, j: usize| match scale.place(self.rows[j][i]) {
+            Some(place) => shade(range.share(place)),
+            None => EMPTY,
+        };
+        let pixels = up
+            .iter()
+            .rev()
+            .flat_map(|j| across.iter().map(move |i| (*i, *j)));
+        drawing.field(PixelField {
+            area: plot,
+            pixels: [columns, rows],
+            rgb: pixels.flat_map(|(i, j)| colour(i, j)).collect(),
         });
-        chart.draw_series(steps).map_err(told)?;
-        Ok(())
+        drawing.frame(plot);
+        drawing.axis(plot, Side::Below, &x);
+        drawing.axis(plot, Side::Left, &y);
+        let labels = range.labels.iter();
+        let labels = labels.map(|(at, label)| (range.share(*at), label.clone()));
+        drawing.colour_bar(
+            plot,
+            ColourBar {
+                title: range.title,
+                colour: &shade,
+                labels: labels.collect(),
+                note: None,
+            },
+        );
+        Some(drawing)
     }
 }
 
@@ -132,9 +95,8 @@ fn edges(values: &[f64]) -> Vec<f64> {
 }
 
 /// Colour of a share, 0 to 1.
-fn shade(share: f64) -> RGBColor {
-    let [r, g, b] = Ramp::Viridis.colour(share as f32, 1.0);
-    RGBColor(r, g, b)
+fn shade(share: f64) -> Rgb {
+    Ramp::Viridis.colour(share as f32, 1.0)
 }
 
 #[cfg(test)]
@@ -149,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn the_least_is_dark_the_greatest_light_and_what_is_missing_grey() {
+    fn the_minimum_is_dark_and_what_is_missing_grey() {
         let map = HeatMap {
             title: "Map".to_owned(),
             x: ("S".to_owned(), vec![0.0, 1.0]),
@@ -157,15 +119,14 @@ mod tests {
             value: ("relative life".to_owned(), Scale::Log),
             rows: vec![vec![0.1, f64::NAN]],
         };
-        let text = map.svg().unwrap().unwrap();
-        assert!(
-            text.contains("#E6E6E6") && text.contains("#470155"),
-            "{text:.2000}"
-        );
+        let pixels = map.drawing().unwrap().pixels().unwrap();
+        let row = 3 * (300 * pixels.wide as usize);
+        let colour = |x: usize| [0, 1, 2].map(|k| pixels.rgb[row + 3 * x + k]);
+        assert_eq!([colour(200), colour(600)], [shade(0.0), EMPTY]);
         let none = HeatMap {
             rows: vec![vec![0.0, f64::NAN]],
             ..map
         };
-        assert_eq!(none.svg(), Ok(None));
+        assert!(none.drawing().is_none());
     }
 }

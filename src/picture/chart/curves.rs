@@ -1,23 +1,23 @@
 //! Curves over an axis.
 
-use plotters::coord::Shift;
-use plotters::prelude::*;
-
-use super::scale::Axis;
-use super::{BELOW, BESIDE, Chart, Drawn, FONT, Scale, told};
+use super::{Layout, Scale, axis, titled};
+use crate::draw::{Drawing, Rect, Rgb, Side, Text, text_width};
 
 /// Dark enough on white; named in the legend in this order, too.
-const COLOURS: [RGBColor; 9] = [
-    RGBColor(31, 119, 180),
-    RGBColor(214, 39, 40),
-    RGBColor(44, 160, 44),
-    RGBColor(255, 127, 14),
-    RGBColor(148, 103, 189),
-    RGBColor(140, 86, 75),
-    RGBColor(90, 90, 90),
-    RGBColor(23, 190, 207),
-    RGBColor(227, 119, 194),
+const COLOURS: [Rgb; 9] = [
+    [31, 119, 180],
+    [214, 39, 40],
+    [44, 160, 44],
+    [255, 127, 14],
+    [148, 103, 189],
+    [140, 86, 75],
+    [90, 90, 90],
+    [23, 190, 207],
+    [227, 119, 194],
 ];
+
+/// Lines at values of y.
+const LEVEL: Rgb = [153; 3];
 
 /// What a curve is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,8 +67,8 @@ pub struct Figure {
     pub legend: Corner,
 }
 
-/// Least and greatest with a margin; a single value gets room on both sides.
-fn span(places: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+/// Minimum and maximum with a margin; a single value gets room on both sides.
+fn span(places: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for place in places {
         (low, high) = (low.min(place), high.max(place));
@@ -78,86 +78,104 @@ fn span(places: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     } else {
         0.5 * low.abs().max(1e-9)
     };
-    (low <= high).then_some((low - room, high + room))
+    (low <= high).then_some([low - room, high + room])
 }
 
-impl Chart for Figure {
-    fn draw<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Result<Drawn, String> {
-        let place = |&(x, y): &(f64, f64)| Some((self.x.1.place(x)?, self.y.1.place(y)?));
-        let curves: Vec<Vec<(f64, f64)>> = self
-            .curves
-            .iter()
-            .map(|curve| curve.points.iter().filter_map(place).collect())
-            .collect();
-        let levels: Vec<f64> = self
-            .levels
-            .iter()
-            .filter_map(|level| self.y.1.place(*level))
-            .collect();
-        let all = || curves.iter().flatten();
-        let ys = all().map(|p| p.1);
-        let (Some(x), Some(y)) = (span(all().map(|p| p.0)), span(ys.chain(levels.clone()))) else {
-            return Ok(Drawn::Nothing);
+impl Figure {
+    /// Where the points of a curve lie; what has no place is left out.
+    fn places(&self, curve: &Curve) -> Vec<[f64; 2]> {
+        let place = |&(x, y): &(f64, f64)| Some([self.x.1.place(x)?, self.y.1.place(y)?]);
+        curve.points.iter().filter_map(place).collect()
+    }
+
+    /// Names of the curves in a corner of the plot.
+    fn draw_legend(&self, drawing: &mut Drawing, plot: Rect) {
+        let em = drawing.font();
+        let names = self.curves.iter().map(|curve| text_width(&curve.name));
+        let area_wide = (names.fold(0.0, f64::max) + 3.2) * em;
+        let area_high = (1.4 * self.curves.len() as f64 + 0.6) * em;
+        let far = 0.5 * em;
+        let (at_left, at_top) = match self.legend {
+            Corner::UpperRight => (false, true),
+            Corner::UpperLeft => (true, true),
+            Corner::LowerLeft => (true, false),
         };
-        let mut chart = ChartBuilder::on(area)
-            .caption(&self.title, (FONT, 20))
-            .margin(12)
-            .margin_right(20)
-            .x_label_area_size(BELOW)
-            .y_label_area_size(BESIDE)
-            .build_cartesian_2d(Axis::new(self.x.1, x), Axis::new(self.y.1, y))
-            .map_err(told)?;
-        chart
-            .configure_mesh()
-            .x_desc(&self.x.0)
-            .y_desc(&self.y.0)
-            .axis_desc_style((FONT, 15))
-            .label_style((FONT, 14))
-            .x_label_formatter(&|v| self.x.1.label(*v))
-            .y_label_formatter(&|v| self.y.1.label(*v))
-            .bold_line_style(RGBColor(225, 227, 230))
-            .light_line_style(TRANSPARENT)
-            .draw()
-            .map_err(told)?;
+        let area = Rect {
+            left: if at_left {
+                plot.left + far
+            } else {
+                plot.right() - area_wide - far
+            },
+            top: if at_top {
+                plot.top + far
+            } else {
+                plot.bottom() - area_high - far
+            },
+            wide: area_wide,
+            high: area_high,
+        };
+        drawing.fill_rect(area, [255; 3]);
+        for (k, curve) in self.curves.iter().enumerate() {
+            let y = area.top + (1.4 * k as f64 + 1.4) * em;
+            let (from, to) = (area.left + 0.4 * em, area.left + 2.2 * em);
+            let (colour, line_y) = (curve.colour(k), y - 0.35 * em);
+            drawing.line(vec![[from, line_y], [to, line_y]], colour, curve.width());
+            drawing.text(Text::new([to + 0.5 * em, y], &*curve.name));
+        }
+    }
+}
+
+impl Layout for Figure {
+    fn drawing(&self) -> Option<Drawing> {
+        let curves: Vec<Vec<[f64; 2]>> =
+            self.curves.iter().map(|curve| self.places(curve)).collect();
+        let levels = self.levels.iter();
+        let levels: Vec<f64> = levels.filter_map(|level| self.y.1.place(*level)).collect();
+        let all = || curves.iter().flatten();
+        let x_ends = span(all().map(|at| at[0]))?;
+        let y_ends = span(all().map(|at| at[1]).chain(levels.clone()))?;
+        let (mut drawing, plot) = titled(&self.title, 1.5);
+        let x = axis(self.x.1, x_ends, &self.x.0);
+        let y = axis(self.y.1, y_ends, &self.y.0);
+        drawing.grid(plot, &x, &y);
         for level in levels {
-            let line = LineSeries::new([(x.0, level), (x.1, level)], BLACK.mix(0.4));
-            chart.draw_series(line).map_err(told)?;
+            let at = y.share(level);
+            drawing.line(vec![plot.at(0.0, at), plot.at(1.0, at)], LEVEL, 1.0);
         }
         for (k, (curve, points)) in self.curves.iter().zip(curves).enumerate() {
-            let style = curve.style(k);
-            chart
-                .draw_series(LineSeries::new(points.iter().copied(), style))
-                .map_err(told)?
-                .label(curve.name.as_str())
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
+            let points = points.iter();
+            let points: Vec<[f64; 2]> = points
+                .map(|at| plot.at(x.share(at[0]), y.share(at[1])))
+                .collect();
             if curve.mark == Mark::Computed {
-                let dot = |&at: &(f64, f64)| Circle::new(at, 4, style.color.filled());
-                chart.draw_series(points.iter().map(dot)).map_err(told)?;
+                for at in &points {
+                    drawing.dot(*at, 4.0, curve.colour(k));
+                }
             }
+            drawing.line(points, curve.colour(k), curve.width());
         }
+        drawing.frame(plot);
+        drawing.axis(plot, Side::Below, &x);
+        drawing.axis(plot, Side::Left, &y);
         if self.curves.len() > 1 {
-            chart
-                .configure_series_labels()
-                .position(match self.legend {
-                    Corner::UpperRight => SeriesLabelPosition::UpperRight,
-                    Corner::UpperLeft => SeriesLabelPosition::UpperLeft,
-                    Corner::LowerLeft => SeriesLabelPosition::LowerLeft,
-                })
-                .background_style(WHITE.mix(0.85))
-                .border_style(BLACK.mix(0.3))
-                .label_font((FONT, 13))
-                .draw()
-                .map_err(told)?;
+            self.draw_legend(&mut drawing, plot);
         }
-        Ok(Drawn::Something)
+        Some(drawing)
     }
 }
 
 impl Curve {
-    fn style(&self, k: usize) -> ShapeStyle {
+    fn colour(&self, k: usize) -> Rgb {
         match self.mark {
-            Mark::Computed => COLOURS[k % COLOURS.len()].stroke_width(2),
-            Mark::Formula => RGBColor(130, 130, 130).stroke_width(1),
+            Mark::Computed => COLOURS[k % COLOURS.len()],
+            Mark::Formula => [130; 3],
+        }
+    }
+
+    fn width(&self) -> f64 {
+        match self.mark {
+            Mark::Computed => 2.0,
+            Mark::Formula => 1.0,
         }
     }
 }
@@ -165,6 +183,7 @@ impl Curve {
 #[cfg(test)]
 #[expect(clippy::unwrap_used, reason = "tests")]
 mod tests {
+    use super::super::Chart as _;
     use super::*;
 
     fn figure(points: &[(f64, f64)]) -> Figure {
@@ -188,10 +207,10 @@ mod tests {
         let text = figure.svg().unwrap().unwrap();
         assert!(text.starts_with("<svg") && text.contains("Title") && text.contains("life"));
         // The two points that have a place.
-        assert_eq!(text.matches("<circle").count(), 2);
+        assert_eq!(text.matches("<polygon").count(), 2);
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("figure.png");
-        assert_eq!(figure.png(&path), Ok(Drawn::Something));
+        assert_eq!(figure.png(&path), Ok(true));
         let bytes = std::fs::read(&path).unwrap();
         // Signature, then width and height of the header.
         assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");

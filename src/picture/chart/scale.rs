@@ -1,9 +1,5 @@
 //! How numbers lie along an axis.
 
-use std::ops::Range;
-
-use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
-
 use asperity_engine::math::number::{tick, ticks};
 
 /// Linear or logarithmic. A *place* is what is drawn: the value, or its decimal logarithm.
@@ -57,40 +53,6 @@ impl Scale {
                 all.filter(|place| (low..=high).contains(place)).collect()
             }
         }
-    }
-}
-
-/// An axis of places with marks at round numbers.
-pub(super) struct Axis {
-    ends: (f64, f64),
-    marks: Vec<f64>,
-}
-
-impl Axis {
-    /// From one place to another, which must differ.
-    pub(super) fn new(scale: Scale, ends: (f64, f64)) -> Self {
-        Self {
-            ends,
-            marks: scale.marks(ends.0, ends.1),
-        }
-    }
-}
-
-impl Ranged for Axis {
-    type FormatOption = DefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, (first, last): (i32, i32)) -> i32 {
-        let share = (value - self.ends.0) / (self.ends.1 - self.ends.0);
-        first + (f64::from(last - first) * share).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _hint: Hint) -> Vec<f64> {
-        self.marks.clone()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.ends.0..self.ends.1
     }
 }
 

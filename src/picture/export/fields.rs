@@ -1,13 +1,46 @@
 //! The arrays of a step, for every format that holds arrays: named as the frame's fields, units in the names, SI.
 
+use std::borrow::Cow;
 use std::io::{Result, Write};
 
-use super::netcdf::{ArrayValues, FieldArray, NetCdf};
 use super::npz::Npz;
 use asperity_engine::sim::{CATALOGUE, Frame};
 
+/// Numbers of an array.
+pub(super) enum ArrayValues<'a> {
+    F32(&'a [f32]),
+    F64(Cow<'a, [f64]>),
+    U8(&'a [u8]),
+}
+
+impl ArrayValues<'_> {
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::F32(all) => all.len(),
+            Self::F64(all) => all.len(),
+            Self::U8(all) => all.len(),
+        }
+    }
+
+    /// Little-endian.
+    pub(super) fn bytes(&self) -> Vec<u8> {
+        match self {
+            Self::F32(all) => all.iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Self::F64(all) => all.iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Self::U8(all) => all.to_vec(),
+        }
+    }
+}
+
+/// An array: its name, its axes from the slowest to the fastest, and its numbers.
+pub(super) struct FieldArray<'a> {
+    pub(super) name: &'static str,
+    pub(super) axes: &'static [&'static str],
+    pub(super) values: ArrayValues<'a>,
+}
+
 /// All arrays of a frame: every scalar that is known, the nodes, the fields, the slice.
-fn arrays(frame: &Frame) -> Vec<FieldArray<'_>> {
+pub(super) fn arrays(frame: &Frame) -> Vec<FieldArray<'_>> {
     let array = |name, axes, values| FieldArray { name, axes, values };
     let known = CATALOGUE.iter().filter_map(|quantity| {
         let value = quantity.number(frame)?;
@@ -73,28 +106,7 @@ pub(super) fn write_npz(out: impl Write, frame: &Frame) -> Result<u64> {
     let mut npz = Npz::new(out);
     for FieldArray { name, axes, values } in arrays(frame) {
         let shape: Vec<usize> = axes.iter().map(|axis| length(frame, axis)).collect();
-        match values {
-            ArrayValues::F32(values) => npz.f32(name, &shape, values)?,
-            ArrayValues::F64(values) => npz.f64(name, &shape, &values)?,
-            ArrayValues::U8(values) => npz.u8(name, &shape, values)?,
-        }
+        npz.array(name, &shape, &values)?;
     }
     npz.finish()
-}
-
-/// A frame as NetCDF; its bytes.
-pub(super) fn write_netcdf(mut out: impl Write, frame: &Frame) -> Result<u64> {
-    let mut file = NetCdf::default();
-    for axis in ["x", "y", "depth"] {
-        if length(frame, axis) > 0 {
-            file.axis(axis, length(frame, axis));
-        }
-    }
-    for array in arrays(frame) {
-        file.array(&array)?;
-    }
-    let bytes = file.finish();
-    out.write_all(&bytes)?;
-    out.flush()?;
-    Ok(bytes.len() as u64)
 }

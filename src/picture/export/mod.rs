@@ -1,30 +1,34 @@
-//! Chosen steps as `.npz` files that numpy, Julia and MATLAB read, as NetCDF, and as pictures, with the scene beside them.
+//! Chosen steps as `.npz` files that numpy, Julia and MATLAB read, as `.vti` and `.vtr` that ParaView opens, and as pictures,
+//! with the scene beside them.
 //!
 //! One file a step: `step_000128.npz` with arrays named as the frame's fields, units in the names, `[y, x]`
-//! with x the rolling direction, the slice `[depth, x]`; every scalar that is known, named as in the table. Pictures are `step_000128_pressure.png` and so on. Beside them `scene.toml`, which
-//! repeats the run.
+//! with x the rolling direction, the slice `[depth, x]`; every scalar that is known, named as in the table.
+//! `step_000128.vti` and `step_000128_slice.vtr` hold the same. Pictures are `step_000128_pressure.png` and so on. Beside
+//! them `scene.toml`, which repeats the run.
 
 mod animation;
-mod drawing;
+mod centre_line;
 mod fields;
-mod netcdf;
+mod map;
 mod npz;
 mod pages;
-mod paper;
 mod profile;
+mod sheet;
+mod vtk;
 
 use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
-use std::io::BufWriter;
+use std::io::{BufWriter, Error};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use clap::ValueEnum as _;
+
 use self::animation::Animation;
-use self::drawing::PictureTarget;
-use self::fields::{write_netcdf, write_npz};
-use self::pages::{Page, Pictures};
-pub use self::paper::PrintSize;
-use crate::chart::png_of;
+use self::fields::write_npz;
+use self::pages::{Pictures, SheetKind};
+pub use self::sheet::PrintSize;
+use crate::draw::Drawing;
 use asperity_engine::observe::{
     NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
 };
@@ -35,9 +39,8 @@ use asperity_engine::sim::{Frame, Stage};
 pub enum Format {
     /// Fields as numpy archives
     Npz,
-    /// All fields as NetCDF
-    #[value(name = "nc")]
-    NetCdf,
+    /// Fields for ParaView, and what else reads VTK
+    Vti,
     /// Maps and centre line as pictures
     Png,
     /// The same as papers print them: sized in mm, axes and text as vectors, no title
@@ -46,28 +49,43 @@ pub enum Format {
     Pdf,
     /// All steps one after another
     Gif,
-    /// The same as animated PNG, in all colours
-    Apng,
     /// Every scalar of every step (of a recording; a run has --table)
     Csv,
+}
+
+/// What becomes of steps in a format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum FormatKind {
+    /// A file of arrays each.
+    Fields,
+    /// A file for each picture of each.
+    Pictures,
+    /// A file for each picture of all.
+    Moving,
+    /// Rows of a table, which this does not write.
+    Table,
 }
 
 impl Format {
     fn ending(self) -> &'static str {
         match self {
             Self::Npz => "npz",
-            Self::NetCdf => "nc",
+            Self::Vti => "vti",
             Self::Png => "png",
             Self::Svg => "svg",
             Self::Pdf => "pdf",
             Self::Gif => "gif",
-            Self::Apng => "apng",
             Self::Csv => "csv",
         }
     }
 
-    fn moves(self) -> bool {
-        matches!(self, Self::Gif | Self::Apng)
+    fn kind(self) -> FormatKind {
+        match self {
+            Self::Npz | Self::Vti => FormatKind::Fields,
+            Self::Png | Self::Svg | Self::Pdf => FormatKind::Pictures,
+            Self::Gif => FormatKind::Moving,
+            Self::Csv => FormatKind::Table,
+        }
     }
 }
 
@@ -144,7 +162,7 @@ impl Export {
         })
     }
 
-    fn failed(&self, error: &std::io::Error) -> ObserveError {
+    fn failed(&self, error: &Error) -> ObserveError {
         ObserveError::new(
             self.folder.display().to_string(),
             format!("the fields could not be written ({error}); files written before are kept"),
@@ -166,43 +184,45 @@ impl Export {
         if self.frames == 0 {
             self.move_in()?;
         }
+        let print = SheetKind::Printed(self.print);
+        if self.formats.contains(&Format::Gif) {
+            self.follow(frame)?;
+        }
         for format in self.formats.clone().into_iter().filter(|_| as_still) {
             self.bytes += match format {
-                Format::Npz | Format::NetCdf => self.write(frame, format)?,
-                Format::Png | Format::Svg | Format::Pdf => self.draw(frame, format)?,
-                Format::Gif | Format::Apng | Format::Csv => 0,
+                Format::Npz => self.write(frame, NPZ, &|out| write_npz(out, frame))?,
+                Format::Vti => self.write_vtk(frame)?,
+                Format::Png => self.draw(frame, format, SheetKind::Still, Drawing::png)?,
+                Format::Svg => self.draw(frame, format, print, Drawing::svg)?,
+                Format::Pdf => self.draw(frame, format, print, Drawing::pdf)?,
+                Format::Gif | Format::Csv => 0,
             };
-        }
-        if self.formats.iter().any(|format| format.moves()) {
-            self.follow(frame)?;
         }
         self.frames += 1;
         Ok(())
     }
 
     /// A step's pictures in one format; the bytes written.
-    fn draw(&mut self, frame: &Frame, format: Format) -> Result<u64, ObserveError> {
+    fn draw(
+        &mut self,
+        frame: &Frame,
+        format: Format,
+        sheet: SheetKind,
+        file: fn(&Drawing) -> Result<Vec<u8>, String>,
+    ) -> Result<u64, ObserveError> {
         let mut bytes = 0;
         for (name, page) in Pictures::pages(frame, &self.chosen) {
-            let file = format!("step_{:06}_{name}.{}", frame.step, format.ending());
-            let path = self.folder.join(file);
-            let (pictures, print) = (&mut self.pictures, self.print);
-            self.overwrite.write_by(&path, |at| {
-                let drawn = if format == Format::Png {
-                    let mut pixels = Vec::new();
-                    let size = pictures.draw(frame, page, PictureTarget::Still(&mut pixels));
-                    size.and_then(|size| png_of(&pixels, size))
-                } else {
-                    pictures.print(frame, page, (&print, format == Format::Pdf))
-                };
-                std::fs::write(at, drawn.map_err(std::io::Error::other)?)
-            })?;
-            bytes += std::fs::metadata(&path).map_or(0, |data| data.len());
+            let drawn = self.pictures.draw(frame, page, sheet);
+            let drawn = drawn.and_then(|drawing| file(&drawing));
+            let drawn = drawn.map_err(|reason| self.failed(&Error::other(reason)))?;
+            let name = format!("step_{:06}_{name}.{}", frame.step, format.ending());
+            self.overwrite.write(&self.folder.join(name), &drawn)?;
+            bytes += drawn.len() as u64;
         }
         Ok(bytes)
     }
 
-    /// Takes a step up for the pictures that move.
+    /// Takes a step up for the pictures that move, which are written at the end.
     fn follow(&mut self, frame: &Frame) -> Result<(), ObserveError> {
         let one = [Pictures::moving(frame).to_owned()];
         let chosen = if self.chosen.is_empty() {
@@ -210,15 +230,13 @@ impl Export {
         } else {
             &self.chosen
         };
-        let pages: Vec<(&'static str, Page)> = Pictures::pages(frame, chosen);
-        for (name, page) in pages {
+        for (name, page) in Pictures::pages(frame, chosen) {
             let animation = self.moving.entry(name).or_default();
             if animation.wants(frame.passages) {
-                let mut pixels = Vec::new();
-                let canvas = PictureTarget::Moving(&mut pixels);
-                let drawn = self.pictures.draw(frame, page, canvas);
-                let size = drawn.map_err(|reason| self.failed(&std::io::Error::other(reason)))?;
-                self.moving.entry(name).or_default().push(size, pixels);
+                let drawn = self.pictures.draw(frame, page, SheetKind::Moving);
+                let pixels = drawn.and_then(|drawing| drawing.pixels());
+                let pixels = pixels.map_err(|reason| self.failed(&Error::other(reason)))?;
+                self.moving.entry(name).or_default().push(pixels);
             }
         }
         Ok(())
@@ -227,25 +245,36 @@ impl Export {
     /// Writes the pictures that move.
     fn write_moving(&mut self) -> Result<(), ObserveError> {
         for (name, animation) in std::mem::take(&mut self.moving) {
-            for format in self.formats.iter().filter(|format| format.moves()) {
-                let path = self.folder.join(format!("{name}.{}", format.ending()));
-                self.overwrite.write_by(&path, |at| animation.write(at))?;
-                self.bytes += std::fs::metadata(&path).map_or(0, |data| data.len());
-            }
+            let path = self.folder.join(moving_file(name));
+            self.overwrite.write_by(&path, |at| {
+                let out = BufWriter::new(File::create(at)?);
+                animation.write(out).map_err(Error::other)
+            })?;
+            self.bytes += std::fs::metadata(&path).map_or(0, |data| data.len());
         }
         Ok(())
     }
 
-    /// Writes the arrays of a step; the bytes written.
-    fn write(&self, frame: &Frame, format: Format) -> Result<u64, ObserveError> {
-        let file = format!("step_{:06}.{}", frame.step, format.ending());
-        self.overwrite.write_by(&self.folder.join(file), |at| {
-            let out = BufWriter::new(File::create(at)?);
-            match format {
-                Format::NetCdf => write_netcdf(out, frame),
-                _ => write_npz(out, frame),
-            }
-        })
+    /// Writes a file of a step's arrays; the bytes written.
+    fn write(
+        &self,
+        frame: &Frame,
+        ending: &str,
+        by: &dyn Fn(BufWriter<File>) -> Result<u64, Error>,
+    ) -> Result<u64, ObserveError> {
+        let file = self.folder.join(format!("step_{:06}{ending}", frame.step));
+        let write = |at: &Path| by(BufWriter::new(File::create(at)?));
+        self.overwrite.write_by(&file, write)
+    }
+
+    /// Writes the arrays of a step for VTK; the bytes written.
+    fn write_vtk(&self, frame: &Frame) -> Result<u64, ObserveError> {
+        let surface = self.write(frame, VTI, &|out| vtk::write_surface(out, frame))?;
+        let slice = match &frame.slice {
+            Some(slice) => self.write(frame, VTR, &|out| vtk::write_slice(out, frame, slice))?,
+            None => 0,
+        };
+        Ok(surface + slice)
     }
 
     /// Puts the scene into the folder, in place of what an earlier run left there: its steps beside another scene
@@ -253,7 +282,7 @@ impl Export {
     fn move_in(&mut self) -> Result<(), ObserveError> {
         let entries = std::fs::read_dir(&self.folder).into_iter().flatten();
         let names = entries.flatten().map(|entry| entry.file_name());
-        let ours = |name: &str| is_a_step(name) || Pictures::is_moving(name);
+        let ours = |name: &str| is_a_step(name) || is_moving(name);
         for name in names.filter(|name| ours(&name.to_string_lossy())) {
             let removed = std::fs::remove_file(self.folder.join(name));
             removed.map_err(|error| self.failed(&error))?;
@@ -272,10 +301,15 @@ fn is_ours(path: &Path) -> bool {
     head.starts_with(b"# A scene of asperity.")
 }
 
+/// Endings of the files of a step's arrays.
+const NPZ: &str = ".npz";
+const VTI: &str = ".vti";
+const VTR: &str = "_slice.vtr";
+
 /// Whether a file of that name is one that an export writes: `step_000128.npz`, `step_000128_pressure.png`, the
 /// scene.
 pub fn is_exported(name: &str) -> bool {
-    name == SCENE || is_a_step(name) || Pictures::is_moving(name)
+    name == SCENE || is_a_step(name) || is_moving(name)
 }
 
 fn is_a_step(name: &str) -> bool {
@@ -283,7 +317,28 @@ fn is_a_step(name: &str) -> bool {
         return false;
     };
     let what = rest.trim_start_matches(|c: char| c.is_ascii_digit());
-    rest.len() - what.len() >= 6 && ([".npz", ".nc"].contains(&what) || Pictures::are_named(what))
+    let is_picture = || {
+        let parts = what.strip_prefix('_').and_then(|what| what.split_once('.'));
+        parts.is_some_and(|(name, ending)| is_named(name, ending, FormatKind::Pictures))
+    };
+    rest.len() - what.len() >= 6 && ([NPZ, VTI, VTR].contains(&what) || is_picture())
+}
+
+fn is_moving(name: &str) -> bool {
+    let parts = name.split_once('.');
+    parts.is_some_and(|(name, ending)| is_named(name, ending, FormatKind::Moving))
+}
+
+/// Whether a picture has that name, and a format of that kind that ending.
+fn is_named(name: &str, ending: &str, kind: FormatKind) -> bool {
+    let formats = Format::value_variants().iter();
+    let mut of_kind = formats.filter(|format| format.kind() == kind);
+    of_kind.any(|format| format.ending() == ending) && Pictures::names().any(|own| own == name)
+}
+
+/// Name of a picture that moves.
+fn moving_file(name: &str) -> String {
+    format!("{name}.{}", Format::Gif.ending())
 }
 
 impl Observer for Export {

@@ -10,14 +10,14 @@
 
 use std::io::{Error, ErrorKind, Result, Write};
 
+use super::fields::ArrayValues;
+
 /// An archive under construction.
 pub(super) struct Npz<W> {
     out: W,
     at: u64,
     directory: Vec<u8>,
     members: u16,
-    /// The array in the making.
-    array: Vec<u8>,
 }
 
 impl<W: Write> Npz<W> {
@@ -27,36 +27,26 @@ impl<W: Write> Npz<W> {
             at: 0,
             directory: Vec::new(),
             members: 0,
-            array: Vec::new(),
         }
     }
 
-    pub(super) fn f32(&mut self, name: &str, shape: &[usize], values: &[f32]) -> Result<()> {
-        self.begin("<f4", shape, values.len())?;
-        self.array
-            .extend(values.iter().flat_map(|value| value.to_le_bytes()));
-        self.end(name)
-    }
-
-    pub(super) fn f64(&mut self, name: &str, shape: &[usize], values: &[f64]) -> Result<()> {
-        self.begin("<f8", shape, values.len())?;
-        self.array
-            .extend(values.iter().flat_map(|value| value.to_le_bytes()));
-        self.end(name)
-    }
-
-    pub(super) fn u8(&mut self, name: &str, shape: &[usize], values: &[u8]) -> Result<()> {
-        self.begin("|u1", shape, values.len())?;
-        self.array.extend_from_slice(values);
-        self.end(name)
-    }
-
-    /// The array's header. A shape that does not hold the values would be read as something else.
-    fn begin(&mut self, kind: &str, shape: &[usize], values: usize) -> Result<()> {
-        if shape.iter().product::<usize>() != values {
-            let what = format!("{values} values do not fill an array of shape {shape:?}");
+    /// Writes an array as a member. A shape that does not hold the values would be read as something else.
+    pub(super) fn array(
+        &mut self,
+        name: &str,
+        shape: &[usize],
+        values: &ArrayValues,
+    ) -> Result<()> {
+        if shape.iter().product::<usize>() != values.len() {
+            let count = values.len();
+            let what = format!("{count} values do not fill an array of shape {shape:?}");
             return Err(Error::new(ErrorKind::InvalidInput, what));
         }
+        let kind = match values {
+            ArrayValues::F32(_) => "<f4",
+            ArrayValues::F64(_) => "<f8",
+            ArrayValues::U8(_) => "|u1",
+        };
         let shape = shape
             .iter()
             .fold(String::new(), |text, n| text + &n.to_string() + ", ");
@@ -67,26 +57,24 @@ impl<W: Write> Npz<W> {
             header.push(' ');
         }
         header.push('\n');
-        self.array.clear();
-        self.array.extend_from_slice(b"\x93NUMPY\x01\x00");
-        self.array
-            .extend_from_slice(&(header.len() as u16).to_le_bytes());
-        self.array.extend_from_slice(header.as_bytes());
-        Ok(())
+        let mut array = b"\x93NUMPY\x01\x00".to_vec();
+        array.extend_from_slice(&(header.len() as u16).to_le_bytes());
+        array.extend_from_slice(header.as_bytes());
+        array.extend(values.bytes());
+        self.member(&format!("{name}.npy"), &array)
     }
 
-    /// Writes the array as a member.
-    fn end(&mut self, name: &str) -> Result<()> {
-        let name = format!("{name}.npy");
+    /// Writes a member of the archive.
+    fn member(&mut self, name: &str, bytes: &[u8]) -> Result<()> {
         let too_long = |_| Error::new(ErrorKind::InvalidInput, "an archive of 4 GB and more");
-        let size = u32::try_from(self.array.len()).map_err(too_long)?;
+        let size = u32::try_from(bytes.len()).map_err(too_long)?;
         let offset = u32::try_from(self.at).map_err(too_long)?;
         let mut common = Vec::with_capacity(26);
         // Version 2.0, no flags, stored, 1980-01-01 (files are reproducible), checksum, sizes, lengths.
         for field in [20_u16, 0, 0, 0, 0x21] {
             common.extend(field.to_le_bytes());
         }
-        for field in [crc32fast::hash(&self.array), size, size] {
+        for field in [crc32fast::hash(bytes), size, size] {
             common.extend(field.to_le_bytes());
         }
         for field in [name.len() as u16, 0] {
@@ -95,9 +83,7 @@ impl<W: Write> Npz<W> {
         self.put(b"PK\x03\x04")?;
         self.put(&common)?;
         self.put(name.as_bytes())?;
-        let array = std::mem::take(&mut self.array);
-        self.put(&array)?;
-        self.array = array;
+        self.put(bytes)?;
         self.directory.extend_from_slice(b"PK\x01\x02\x14\x00");
         self.directory.extend_from_slice(&common);
         // No comment, first disk, no attributes.
@@ -140,12 +126,12 @@ mod tests {
     fn arrays_lie_where_their_headers_say() {
         let mut bytes = Vec::new();
         let mut npz = Npz::new(&mut bytes);
-        assert!(
-            npz.f32("p", &[2, 3], &[0.0, 1.0, 2.0, 3.0, 4.0, 5.5])
-                .is_ok()
-        );
-        assert!(npz.f64("t", &[], &[0.25]).is_ok());
-        assert!(npz.u8("c", &[2], &[7]).is_err(), "one value is missing");
+        let p = ArrayValues::F32(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.5]);
+        assert!(npz.array("p", &[2, 3], &p).is_ok());
+        let t = ArrayValues::F64(vec![0.25].into());
+        assert!(npz.array("t", &[], &t).is_ok());
+        let c = npz.array("c", &[2], &ArrayValues::U8(&[7]));
+        assert!(c.is_err(), "one value is missing");
         let length = npz.finish().unwrap_or(0);
         assert_eq!(length, bytes.len() as u64);
         let header = 30 + "p.npy".len();

@@ -4,11 +4,13 @@
 
 use std::borrow::Cow;
 
-use super::drawing::{Drawing, DrawnCurve, ExportedFigure, PictureTarget, Right};
-use super::paper::{Paper, PrintSize};
+use super::centre_line::centre_line;
+use super::map::map;
 use super::profile::ProfilePage;
+use super::sheet::{Heading, PrintSize, Sheet};
+use crate::draw::Drawing;
 use crate::{Look, NodeAxis, Picture, Ramp, Ranges, Scope, Subject};
-use asperity_engine::math::number::{GPA, MM, UM, Unit, plain};
+use asperity_engine::math::number::{GPA, Unit, plain, seconds};
 use asperity_engine::scene::{ContactKind, Scene};
 use asperity_engine::sim::{DamageBlock, Frame};
 
@@ -48,23 +50,6 @@ impl Pictures {
         PAGES.into_iter().map(|(name, _)| name)
     }
 
-    /// Whether `_pressure.png` and so on stands behind the number of a step.
-    pub(super) fn are_named(what: &str) -> bool {
-        let Some((name, ending)) = what.strip_prefix('_').and_then(|what| what.split_once('.'))
-        else {
-            return false;
-        };
-        ["png", "svg", "pdf"].contains(&ending) && Self::names().any(|page| page == name)
-    }
-
-    /// Whether it is `pressure.gif` and so on.
-    pub(super) fn is_moving(name: &str) -> bool {
-        let parts = name.split_once('.');
-        parts.is_some_and(|(name, ending)| {
-            ["gif", "apng"].contains(&ending) && Self::names().any(|page| page == name)
-        })
-    }
-
     /// The ranges that hold at a frame.
     fn ranges(&mut self, frame: &Frame) -> Ranges {
         let scene = self.scene.as_ref();
@@ -78,68 +63,57 @@ impl Pictures {
         ProfilePage::of(frame, self.scene.as_ref()?, self.scope.as_ref()?)
     }
 
-    /// Draws one picture as papers print it; the bytes of an SVG or a PDF.
-    ///
-    /// # Errors
-    /// What went wrong, in words.
-    pub(super) fn print(
-        &mut self,
-        frame: &Frame,
-        page: Page,
-        (print, as_pdf): (&PrintSize, bool),
-    ) -> Result<Vec<u8>, String> {
-        let ranges = self.ranges(frame);
-        let paper = match page {
-            Page::CentreLine => Paper::figure(&centre_line(frame, ranges), print),
-            Page::Profile => match self.profile(frame) {
-                Some(profile) => profile.print(print, page.x_title()),
-                None => return Err("the frame does not hold it".to_owned()),
-            },
-            _ => match page.picture(frame, &ranges) {
-                Some(picture) => Paper::map(&picture, print, page.x_title()),
-                None => return Err("the frame does not hold it".to_owned()),
-            },
-        };
-        if as_pdf {
-            paper.pdf()
-        } else {
-            paper.svg().map(String::into_bytes)
-        }
-    }
-
     /// Draws one picture.
     ///
     /// # Errors
-    /// What went wrong, in words.
+    /// In words, where the frame does not hold it.
     pub(super) fn draw(
         &mut self,
         frame: &Frame,
         page: Page,
-        canvas: PictureTarget,
-    ) -> Result<(u32, u32), String> {
+        kind: SheetKind,
+    ) -> Result<Drawing, String> {
         let ranges = self.ranges(frame);
         let name = self.scene.as_ref().map_or("", |scene| scene.title.as_str());
-        let drawing = Drawing {
+        let heading = |state: String| Heading {
             title: format!("{name}: {}", page.title()),
-            state: match canvas {
-                PictureTarget::Still(_) => state(frame),
-                // Half as wide.
-                PictureTarget::Moving(_) => moving_state(frame),
-            },
-            x_title: page.x_title(),
+            state,
         };
-        match page {
-            Page::CentreLine => drawing.figure(&centre_line(frame, ranges), canvas),
-            Page::Profile => match self.profile(frame) {
-                Some(profile) => profile.draw(&drawing, canvas),
-                None => Err("the frame does not hold it".to_owned()),
-            },
-            _ => match page.picture(frame, &ranges) {
-                Some(picture) => drawing.map(&picture, canvas),
-                None => Err("the frame does not hold it".to_owned()),
-            },
-        }
+        let sheet = match kind {
+            SheetKind::Still => Sheet::still(heading(state(frame))),
+            SheetKind::Moving => Sheet::moving(heading(moving_state(frame))),
+            SheetKind::Printed(print) => Sheet::printed(&print),
+        };
+        let x_title = page.x_title();
+        let drawing = match page {
+            Page::CentreLine => Some(centre_line(frame, &ranges, &sheet, x_title)),
+            Page::Profile => {
+                let profile = self.profile(frame);
+                profile.map(|profile| profile.draw(&sheet, x_title))
+            }
+            Page::Map(subject) => {
+                let picture = Picture::of(frame, subject, &ranges);
+                picture.map(|picture| map(&picture, &sheet, x_title))
+            }
+            Page::Damage(body) => {
+                let block = frame.damage[body].as_ref();
+                let picture = block.and_then(|block| damage(frame, block));
+                picture.map(|picture| map(&picture, &sheet, x_title))
+            }
+        };
+        drawing.ok_or_else(|| "the frame does not hold it".to_owned())
     }
+}
+
+/// What a picture is drawn for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum SheetKind {
+    /// A screen.
+    Still,
+    /// A screen, as one of many.
+    Moving,
+    /// A paper.
+    Printed(PrintSize),
 }
 
 /// What is drawn into a file.
@@ -188,15 +162,6 @@ impl Page {
             Self::Map(_) | Self::CentreLine | Self::Profile => {
                 "x, mm (rolling direction to the right)"
             }
-        }
-    }
-
-    /// Its field; `None`: it has none, or the frame does not hold it.
-    fn picture<'a>(self, frame: &'a Frame, ranges: &Ranges) -> Option<Picture<'a>> {
-        match self {
-            Self::Map(subject) => Picture::of(frame, subject, ranges),
-            Self::Damage(body) => damage(frame, frame.damage[body].as_ref()?),
-            Self::CentreLine | Self::Profile => None,
         }
     }
 
@@ -263,65 +228,21 @@ fn state(frame: &Frame) -> String {
     };
     let m = &frame.metrics;
     format!(
-        "step {}, t = {:.3} ms, S = {}, U = {} m/s, load {} {unit}, Hertz {:.3} GPa",
+        "step {}, t = {}, S = {}, U = {} m/s, load {} {unit}, Hertz {}",
         frame.step,
-        frame.time_s * 1e3,
+        seconds(frame.time_s),
         plain(m.slide_roll),
         plain(m.entrainment_m_s),
         plain(m.load_n),
-        GPA.of(frame.p_hertz_pa),
+        GPA.show(frame.p_hertz_pa, 4),
     )
 }
 
 /// The same where there is less room.
 fn moving_state(frame: &Frame) -> String {
     format!(
-        "t = {:.3} ms, S = {}",
-        frame.time_s * 1e3,
+        "t = {}, S = {}",
+        seconds(frame.time_s),
         plain(frame.metrics.slide_roll),
     )
-}
-
-/// Pressure with Hertz's behind it, and the film, along y = 0.
-fn centre_line(frame: &Frame, ranges: Ranges) -> ExportedFigure {
-    let nx = frame.nx;
-    let row = (frame.ny / 2) * nx..(frame.ny / 2 + 1) * nx;
-    let x = |i: usize| (frame.x_min_m + frame.dx_m * i as f64) * MM;
-    let along = |field: &[f32], per_si: f64| -> Vec<(f64, f64)> {
-        let values = field[row.clone()].iter().enumerate();
-        values
-            .map(|(i, &value)| (x(i), f64::from(value) * per_si))
-            .collect()
-    };
-    let hertz = (0..=200).map(|k| {
-        let t = -1.0 + f64::from(k) / 100.0;
-        let share = (1.0 - t * t).max(0.0).sqrt();
-        (t * frame.a_m * MM, share * GPA.of(frame.p_hertz_pa))
-    });
-    ExportedFigure {
-        x: [x(0), x(nx - 1)],
-        left_top: GPA.of(ranges.pressure_pa),
-        left_title: "pressure, GPa".to_owned(),
-        left: vec![
-            DrawnCurve {
-                name: "Hertz pressure",
-                colour: [150, 155, 165],
-                points: hertz.collect(),
-            },
-            DrawnCurve {
-                name: "pressure",
-                colour: [213, 94, 0],
-                points: along(&frame.pressure_pa, GPA.per_si),
-            },
-        ],
-        right: Right {
-            top: UM.of(ranges.film_m),
-            title: "film, µm".to_owned(),
-            curve: DrawnCurve {
-                name: "film (right axis)",
-                colour: [0, 114, 178],
-                points: along(&frame.film_m, UM.per_si),
-            },
-        },
-    }
 }

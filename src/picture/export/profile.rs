@@ -1,14 +1,11 @@
 //! The page of the profile: both surfaces along y = 0 with the oil between them, in the colours of
 //! [`SurfaceProfile`], and the followed point.
 
-use plotters::prelude::*;
-
-use super::drawing::{ABOVE, BELOW, Drawing, EDGE, LEFT, PictureTarget};
-use super::paper::{INK, Paper, PixelArea, PrintSize};
+use super::sheet::Sheet;
 use crate::Scope;
-use crate::chart::FONT;
+use crate::draw::{Axis, Drawing, Side};
 use crate::profile::{ProfileColumn, ProfileScale, SurfaceProfile};
-use asperity_engine::math::number::{MM, UM, plain, sig};
+use asperity_engine::math::number::{MM, UM, sig};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::Frame;
 
@@ -62,7 +59,7 @@ impl<'a> ProfilePage<'a> {
     }
 
     /// Pixels, three bytes each, from above.
-    fn pixels(&self, (wide, tall): (u32, u32)) -> Vec<u8> {
+    fn pixels(&self, [wide, tall]: [u32; 2]) -> Vec<u8> {
         let columns: Vec<ProfileColumn> = self.profile.columns(wide as usize).collect();
         let rows = tall as usize;
         let mut bytes = Vec::with_capacity(3 * columns.len() * rows);
@@ -89,59 +86,16 @@ impl<'a> ProfilePage<'a> {
         bytes
     }
 
-    /// Draws it; its size.
-    ///
-    /// # Errors
-    /// What went wrong, in words.
-    pub(super) fn draw(
-        &self,
-        drawing: &Drawing,
-        canvas: PictureTarget,
-    ) -> Result<(u32, u32), String> {
-        let wide = canvas.wide();
-        let tall = (HEIGHT * f64::from(wide)).round() as u32;
-        let size = (wide + LEFT + EDGE, tall + ABOVE + BELOW);
-        let root = drawing.begin(canvas, size)?;
+    /// Draws it.
+    pub(super) fn draw(&self, sheet: &Sheet, x_title: &str) -> Drawing {
+        let (mut drawing, plot) = sheet.begin(1.0, HEIGHT);
+        drawing.field(sheet.field(plot, |pixels| self.pixels(pixels)));
         let [x, z] = self.ends();
-        let draw = || -> Result<(), DrawingAreaErrorKind<_>> {
-            let mut chart = ChartBuilder::on(&root)
-                .margin_top(ABOVE)
-                .margin_left(EDGE)
-                .margin_right(EDGE)
-                .x_label_area_size(BELOW)
-                .y_label_area_size(LEFT - EDGE)
-                .build_cartesian_2d(x[0]..x[1], z[0]..z[1])?;
-            let size = chart.plotting_area().dim_in_pixel();
-            let bytes = self.pixels(size);
-            if let Some(image) = BitMapElement::with_owned_buffer((x[0], z[1]), size, bytes) {
-                chart.plotting_area().draw(&image)?;
-            }
-            let z_title = self.exaggeration();
-            chart
-                .configure_mesh()
-                .disable_mesh()
-                .label_style((FONT, 15))
-                .axis_desc_style((FONT, 16))
-                .x_desc(drawing.x_title)
-                .y_desc(z_title)
-                .x_label_formatter(&|x| plain(*x))
-                .y_label_formatter(&|z| plain(*z))
-                .draw()
-        };
-        draw().map_err(|error| error.to_string())?;
-        root.present().map_err(|error| error.to_string())?;
-        Ok(size)
-    }
-
-    /// As papers print it.
-    pub(super) fn print(&self, print: &PrintSize, x_title: &str) -> Paper {
-        let [x, z] = self.ends();
-        let title = self.exaggeration();
-        Paper::field(print, HEIGHT, |paper, plot, pixels| {
-            paper.x_axis(plot, x, x_title);
-            paper.side(plot, z, (&title, INK), (false, false));
-            PixelArea::over(plot, pixels, self.pixels((pixels[0], pixels[1])))
-        })
+        let z_title = self.exaggeration();
+        drawing.frame(plot);
+        drawing.axis(plot, Side::Below, &Axis::linear(x, x_title));
+        drawing.axis(plot, Side::Left, &Axis::linear(z, &z_title));
+        drawing
     }
 }
 
@@ -184,8 +138,8 @@ mod tests {
         let scene = Scene::load("demonstration").unwrap();
         let scope = Scope::of(Some(&scene), &frame);
         let page = ProfilePage::of(&frame, &scene, &scope).unwrap();
-        let (wide, tall) = (290, 145);
-        let bytes = page.pixels((wide, tall));
+        let [wide, tall] = [290, 145];
+        let bytes = page.pixels([wide, tall]);
         let pixel = |x: f64, z: f64| {
             let column = ((x + 1.5) / 2.9 * f64::from(wide)) as usize;
             let row = ((1.0 - z / page.profile.half_m()) * 0.5 * f64::from(tall)) as usize;
