@@ -100,6 +100,19 @@ pub struct Frame {
     pub grounds: Grounds,
 }
 
+impl Frame {
+    /// The values of a field along y = 0; none where it does not hold them.
+    pub fn centre_line<'a, T>(&self, field: &'a [T]) -> &'a [T] {
+        let start = self.ny / 2 * self.nx;
+        field.get(start..start + self.nx).unwrap_or(&[])
+    }
+
+    /// x/a of a node.
+    pub fn x_over_a(&self, i: usize) -> f64 {
+        (self.x_min_m + i as f64 * self.dx_m) / self.a_m
+    }
+}
+
 /// Scalars of one step. NaN never appears: what is not known yet is `None`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Metrics {

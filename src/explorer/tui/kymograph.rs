@@ -28,12 +28,6 @@ pub(crate) struct Kymograph {
     rows: VecDeque<KymographRow>,
 }
 
-/// The nodes of y = 0.
-fn middle<'a, T>(field: &'a [T], frame: &Frame) -> Option<&'a [T]> {
-    let start = frame.ny / 2 * frame.nx;
-    field.get(start..start + frame.nx)
-}
-
 /// Values along y = 0, SI, and where there is asperity contact.
 pub(crate) type CentreValues<'a> = (&'a [f32], &'a [u8]);
 
@@ -41,13 +35,6 @@ impl Kymograph {
     /// Takes a frame of the passage.
     pub(crate) fn push(&mut self, frame: &Frame) {
         let newest = self.rows.back().map_or(f64::MIN, |row| row.passages);
-        let (Some(pressure), Some(film), Some(contact)) = (
-            middle(&frame.pressure_pa, frame),
-            middle(&frame.film_m, frame),
-            middle(&frame.contact, frame),
-        ) else {
-            return;
-        };
         if frame.stage != Stage::Passage || frame.passages <= newest {
             return;
         }
@@ -56,9 +43,9 @@ impl Kymograph {
         }
         self.rows.push_back(KymographRow {
             passages: frame.passages,
-            pressure: pressure.to_vec(),
-            film: film.to_vec(),
-            contact: contact.to_vec(),
+            pressure: frame.centre_line(&frame.pressure_pa).to_vec(),
+            film: frame.centre_line(&frame.film_m).to_vec(),
+            contact: frame.centre_line(&frame.contact).to_vec(),
         });
     }
 
@@ -99,7 +86,7 @@ impl Span<'_> {
                     Subject::Film => &frame.film_m,
                     _ => &frame.pressure_pa,
                 };
-                middle(values, frame).zip(middle(&frame.contact, frame))
+                Some((frame.centre_line(values), frame.centre_line(&frame.contact)))
             }
         }
     }

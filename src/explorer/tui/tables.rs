@@ -31,9 +31,8 @@ fn table(header: &str, rows: impl Iterator<Item = Vec<Option<f64>>>) -> String {
 }
 
 fn centre_line(frame: &Frame) -> String {
-    let start = frame.ny / 2 * frame.nx;
     // The shortest number that is this one of single precision.
-    let at = |field: &[f32], i: usize| field.get(start + i)?.to_string().parse().ok();
+    let at = |field: &[f32], i: usize| frame.centre_line(field).get(i)?.to_string().parse().ok();
     let rows = (0..frame.nx).map(|i| {
         vec![
             Some(frame.x_min_m + i as f64 * frame.dx_m),

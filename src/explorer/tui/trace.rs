@@ -151,7 +151,7 @@ fn sample(frame: &Frame, point: Chosen, x_m: f64) -> TraceSample {
     let below = |field: fn(&StressSlice) -> &[f32]| slice.map_or(0.0, |s| between(field(s), row));
     TraceSample {
         x_m,
-        pressure_pa: between(&frame.pressure_pa, frame.ny / 2 * frame.nx),
+        pressure_pa: between(frame.centre_line(&frame.pressure_pa), 0),
         effective_pa: below(|slice| &slice.effective_pa),
         tau_xz_pa: below(|slice| &slice.tau_xz_pa),
         cycles: 0.0,

@@ -61,70 +61,66 @@ impl Units {
 
     /// Pressure and stress.
     pub fn pressure(self) -> Unit {
-        match self {
-            Self::Gpa => GPA,
-            Self::Mpa => MPA,
-            Self::Shop => Unit::new("ksi", 1.0 / 6.894_757_293_168e6),
-        }
+        self.choose(GPA, MPA, Unit::new("ksi", 1.0 / 6.894_757_293_168e6))
     }
 
     /// Film thickness.
     pub fn film(self) -> Unit {
-        match self {
-            Self::Gpa => Unit::new("nm", 1e9),
-            Self::Mpa => UM,
-            Self::Shop => Unit::new("µin", 1e6 / 0.0254),
-        }
+        self.choose(Unit::new("nm", 1e9), UM, MICROINCH)
     }
 
     /// Roughness height.
     pub fn height(self) -> Unit {
-        match self {
-            Self::Gpa | Self::Mpa => UM,
-            Self::Shop => Unit::new("µin", 1e6 / 0.0254),
-        }
+        self.choose(UM, UM, MICROINCH)
     }
 
     /// Size of the contact.
     pub fn length(self) -> Unit {
-        match self {
-            Self::Gpa | Self::Mpa => UM,
-            Self::Shop => Unit::new("mil", 1e3 / 0.0254),
-        }
+        self.choose(UM, UM, Unit::new("mil", 1e3 / INCH_M))
     }
 
     /// Radius of a body.
     pub fn radius(self) -> Unit {
-        match self {
-            Self::Gpa | Self::Mpa => Unit::new("mm", 1e3),
-            Self::Shop => Unit::new("in", 1.0 / 0.0254),
-        }
+        let mm = Unit::new("mm", 1e3);
+        self.choose(mm, mm, Unit::new("in", 1.0 / INCH_M))
     }
 
     /// Load.
     pub fn force(self) -> Unit {
-        match self {
-            Self::Gpa | Self::Mpa => Unit::new("N", 1.0),
-            Self::Shop => Unit::new("lbf", 1.0 / 4.448_221_615_260_5),
-        }
+        let newton = Unit::new("N", 1.0);
+        self.choose(newton, newton, Unit::new("lbf", 1.0 / LBF_N))
     }
 
     /// Load of a line.
     pub fn force_per_length(self) -> Unit {
-        match self {
-            Self::Gpa | Self::Mpa => Unit::new("N/m", 1.0),
-            Self::Shop => Unit::new("lbf/in", 0.0254 / 4.448_221_615_260_5),
-        }
+        let newton_per_m = Unit::new("N/m", 1.0);
+        self.choose(
+            newton_per_m,
+            newton_per_m,
+            Unit::new("lbf/in", INCH_M / LBF_N),
+        )
     }
 
     /// Speed.
     pub fn speed(self) -> Unit {
+        let m_per_s = Unit::new("m/s", 1.0);
+        self.choose(m_per_s, m_per_s, Unit::new("in/s", 1.0 / INCH_M))
+    }
+
+    fn choose(self, gpa: Unit, mpa: Unit, shop: Unit) -> Unit {
         match self {
-            Self::Gpa | Self::Mpa => Unit::new("m/s", 1.0),
-            Self::Shop => Unit::new("in/s", 1.0 / 0.0254),
+            Self::Gpa => gpa,
+            Self::Mpa => mpa,
+            Self::Shop => shop,
         }
     }
 }
+
+/// An inch, m.
+const INCH_M: f64 = 0.0254;
+/// A pound-force, N.
+const LBF_N: f64 = 4.448_221_615_260_5;
+const MICROINCH: Unit = Unit::new("µin", 1e6 / INCH_M);
 
 #[cfg(test)]
 mod tests {

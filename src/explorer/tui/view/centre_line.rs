@@ -5,12 +5,12 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use crate::tui::app::{App, PanelKind, Zoom};
+use crate::tui::app::{App, PanelKind};
 use crate::tui::pixels::PixelPlot;
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
 use crate::tui::view::areas::Areas;
-use crate::tui::view::chart::{CurvePanel, Pen, Plot};
+use crate::tui::view::chart::{CurvePanel, Pen, Plot, zoomed};
 use crate::tui::view::panel::{panel, title};
 use crate::tui::view::place::{columns, columns_from, put, put_right, rows};
 use asperity_engine::sim::Frame;
@@ -36,7 +36,7 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
             AXIS,
             inner.width - 2 * AXIS,
         ),
-        x: x_range(app, frame),
+        x: zoomed(app, frame, [-1.6, 1.4]),
         y: [0.0, 1.0],
     };
     let curves = curves(app, frame, plot, buffer);
@@ -65,15 +65,6 @@ fn heading(app: &App, areas: &Areas) -> Line<'static> {
     line
 }
 
-fn x_range(app: &App, frame: &Frame) -> [f64; 2] {
-    let end = (frame.x_min_m + (frame.nx.max(2) - 1) as f64 * frame.dx_m) / frame.a_m;
-    let start = frame.x_min_m / frame.a_m;
-    match app.view.zoom {
-        Zoom::Contact => [start.max(-1.6), end.min(1.4)],
-        Zoom::Domain => [start, end],
-    }
-}
-
 fn curves(app: &App, frame: &Frame, plot: Plot, buffer: &mut Buffer) -> Option<PixelPlot> {
     let pen = |role: Role, letter: char| Pen::new(app.view.theme, role, letter);
     let hertz = frame.p_hertz_pa / app.run.axis_ends.pressure_pa.max(1.0);
@@ -95,17 +86,13 @@ fn row<'a>(
     field: &'a [f32],
     full_scale: f64,
 ) -> impl Iterator<Item = (f64, f64)> + 'a {
-    let start = frame.ny / 2 * frame.nx;
-    let values = field.get(start..start + frame.nx).unwrap_or(&[]);
     let scale = if full_scale > 0.0 {
         1.0 / full_scale
     } else {
         0.0
     };
-    values.iter().enumerate().map(move |(i, value)| {
-        let x = (frame.x_min_m + i as f64 * frame.dx_m) / frame.a_m;
-        (x, f64::from(*value) * scale)
-    })
+    let values = frame.centre_line(field).iter().enumerate();
+    values.map(move |(i, value)| (frame.x_over_a(i), f64::from(*value) * scale))
 }
 
 /// Pressure at the left, film at the right, x/a below.

@@ -8,12 +8,14 @@ use ratatui::symbols::Marker;
 use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Painter, Shape};
 
-use crate::tui::app::App;
+use crate::tui::app::{App, Zoom};
 use crate::tui::pixels::{PixelCurve, PixelPlot};
 use crate::tui::theme::{Role, Theme};
 use crate::tui::units::tick;
 use crate::tui::view::place::put_right;
 use asperity_engine::math::number::ticks;
+use asperity_engine::sim::Frame;
+use asperity_picture::profile::SurfaceProfile;
 
 /// A rectangle of cells, and the values at the middles of its outermost ones.
 #[derive(Debug, Clone, Copy)]
@@ -99,6 +101,15 @@ impl Plot {
                 free_from = first + width + 1;
             }
         }
+    }
+}
+
+/// The part of a frame's x/a that is drawn: around the contact, or all of it.
+pub(super) fn zoomed(app: &App, frame: &Frame, [from, to]: [f64; 2]) -> [f64; 2] {
+    let domain = SurfaceProfile::domain(frame);
+    match app.view.zoom {
+        Zoom::Contact => [domain[0].max(from), domain[1].min(to)],
+        Zoom::Domain => domain,
     }
 }
 

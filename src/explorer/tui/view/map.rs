@@ -19,9 +19,11 @@ use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
 use crate::tui::view::areas::{Areas, PanelSpacing};
+use crate::tui::view::chart::zoomed;
 use crate::tui::view::panel::panel;
 use crate::tui::view::place::{columns, put, rows};
 use asperity_engine::sim::Frame;
+use asperity_picture::profile::SurfaceProfile;
 use asperity_picture::{Picture, Subject};
 use heading::heading;
 use motion::motion;
@@ -200,12 +202,7 @@ impl MapRoom {
 /// The part of the plane that is drawn, in half-widths.
 fn window(app: &App, frame: &Frame, picture: Rect) -> MapWindow {
     let (columns, pixels) = (f64::from(picture.width), 2.0 * f64::from(picture.height));
-    let x_end = frame.x_min_m + (frame.nx.max(2) - 1) as f64 * frame.dx_m;
-    let domain = [frame.x_min_m / frame.a_m, x_end / frame.a_m];
-    let zoomed = |from: f64, to: f64| match app.view.zoom {
-        Zoom::Contact => [domain[0].max(from), domain[1].min(to)],
-        Zoom::Domain => domain,
-    };
+    let zoomed = |from: f64, to: f64| zoomed(app, frame, [from, to]);
     if app.view.map.is_over_time() {
         return MapWindow {
             x: zoomed(-1.6, 1.4),
@@ -226,9 +223,11 @@ fn window(app: &App, frame: &Frame, picture: Rect) -> MapWindow {
         };
     }
     let half = (-frame.y_min_m / frame.b_m).abs().max(0.1);
+    let domain = SurfaceProfile::domain(frame);
+    let whole = domain[1] - domain[0];
     let (half_height, wanted_x) = match app.view.zoom {
-        Zoom::Contact => (half.min(1.15), (domain[1] - domain[0]).min(2.6)),
-        Zoom::Domain => (half, domain[1] - domain[0]),
+        Zoom::Contact => (half.min(1.15), whole.min(2.6)),
+        Zoom::Domain => (half, whole),
     };
     // As many half-widths per pixel as it takes to show the ellipse; then as much as fits.
     let scale = (2.0 * half_height / pixels.max(1.0)).max(wanted_x / columns.max(1.0));

@@ -4,11 +4,11 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::paint::{MapMark, half_blocks, letters, mark};
-use crate::tui::app::{App, Zoom};
+use crate::tui::app::App;
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
 use crate::tui::units::{sig, tick};
-use crate::tui::view::chart::Plot;
+use crate::tui::view::chart::{Plot, zoomed};
 use crate::tui::view::place::{columns_from, fitting, put, put_middle, put_right};
 use crate::tui::view::{place, point};
 use asperity_engine::sim::Frame;
@@ -19,11 +19,7 @@ const ROWS_WITH_TRACE: u16 = 14;
 
 /// The profile that the explorer shows of a frame.
 pub(super) fn of<'a>(app: &App, frame: &'a Frame) -> Option<SurfaceProfile<'a>> {
-    let domain = SurfaceProfile::domain(frame);
-    let x = match app.view.zoom {
-        Zoom::Contact => [domain[0].max(-1.5), domain[1].min(1.4)],
-        Zoom::Domain => domain,
-    };
+    let x = zoomed(app, frame, [-1.5, 1.4]);
     let amplitude_m = frame.metrics.amplitude_1_m.max(frame.metrics.amplitude_2_m);
     let scale = ProfileScale::of(&app.run.setup.scene, app.run.axis_ends.film_m, amplitude_m);
     SurfaceProfile::new(frame, scale, x, &app.ranges())
