@@ -227,7 +227,6 @@ fn crafted_states_are_refused_in_words() {
         ),
         ("/life/variants/0/meter/mean/logs", json!([])),
         ("/life/variants/0/reference", json!([1.0])),
-        ("/life/wavelengths", json!([1e-3, 1e-3])),
         ("/life/law/stress_exponent", json!(1.0)),
         ("/life/depths", shorter("/life/depths")),
         ("/life", Value::Null),

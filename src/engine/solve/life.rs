@@ -85,13 +85,20 @@ saved! {
 }
 
 /// Samples of a window, the oldest first, in memory that is made once.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 struct Phases {
     list: VecDeque<MergedPhase>,
     /// Not in use.
     #[serde(skip)]
     spare: Vec<MergedPhase>,
+}
+
+/// What a file holds of it: two that show the same are the same state.
+impl std::fmt::Debug for Phases {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.list.fmt(out)
+    }
 }
 
 impl Phases {
