@@ -58,7 +58,8 @@ macro_rules! saved {
                 )+)?
                 $(
                     let ($own, $saved) = (self, saved);
-                    if !$holds {
+                    let holds: bool = $holds;
+                    if !holds {
                         return Err(String::new());
                     }
                 )?

@@ -158,7 +158,6 @@ impl KymographEntity {
         if due && self.rows <= self.spare_rows {
             self.spare_rows -= self.rows;
             self.log_picture(stream);
-        } else {
         }
     }
 

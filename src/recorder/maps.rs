@@ -50,7 +50,7 @@ impl Map {
 /// The maps that change.
 pub(crate) struct Maps {
     geometry: Geometry,
-    maps: Vec<Map>,
+    all: Vec<Map>,
     interferogram: Interferogram,
     film: Look,
     hertz: HertzCurve,
@@ -88,7 +88,7 @@ impl Maps {
         stream.log_static(CONTACT, &parts);
         Self {
             geometry,
-            maps,
+            all: maps,
             interferogram: Interferogram::new(stream, geometry),
             film: Look::of(Subject::Film, ranges),
             hertz: HertzCurve::default(),
@@ -103,7 +103,7 @@ impl Maps {
 impl View for Maps {
     fn widen(&mut self, stream: &Stream, _scene: Option<&Scene>, scope: &Scope) {
         self.film = Look::of(Subject::Film, &scope.ranges);
-        for map in &mut self.maps {
+        for map in &mut self.all {
             map.raster
                 .widen(stream, Look::of(map.subject, &scope.ranges));
         }
@@ -113,7 +113,7 @@ impl View for Maps {
     fn log(&mut self, stream: &Stream, frame: &Frame) {
         let nx = self.geometry.nx;
         self.hertz.log_ring(stream, HERTZ, frame);
-        for map in self.maps.iter().filter(|map| map.is_first()) {
+        for map in self.all.iter().filter(|map| map.is_first()) {
             map.log(stream, frame);
         }
         let mut films = frame.film_m.chunks_exact(nx);
@@ -127,14 +127,14 @@ impl View for Maps {
 
     /// What stands beside them in a tab of its own: interferogram, shear, roughness.
     fn log_seldom(&mut self, stream: &Stream, frame: &Frame) {
-        for map in self.maps.iter().filter(|map| !map.is_first()) {
+        for map in self.all.iter().filter(|map| !map.is_first()) {
             map.log(stream, frame);
         }
         self.interferogram.log(stream, frame);
     }
 
     fn rasters(&self) -> Vec<(&'static str, &RasterEntity)> {
-        let all = self.maps.iter();
+        let all = self.all.iter();
         all.map(|map| (map.entity, &map.raster)).collect()
     }
 }

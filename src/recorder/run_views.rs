@@ -91,9 +91,9 @@ impl RunViews {
         let space = Space::new(stream, geometry, first, tops);
         let parts = space.as_ref().map(Space::parts);
         let exaggeration = parts.map(|parts| parts.exaggeration);
-        let heights_note = parts.map_or_else(String::new, |parts| parts.note());
-        shown.camera = parts.map(|parts| parts.camera());
-        shown.lecture = parts.map(|parts| parts.lecture_camera());
+        let heights_note = parts.map_or_else(String::new, crate::space::fixed::Parts::note);
+        shown.camera = parts.map(crate::space::fixed::Parts::camera);
+        shown.lecture = parts.map(crate::space::fixed::Parts::lecture_camera);
         all.extend(space.map(boxed));
         all.extend(curve_views(
             stream, geometry, scene, first, &scope, &mut shown,

@@ -6,7 +6,7 @@
 //! sheets are drawn apart: the gap between them is none of the model's. Lowest hangs body 1's damage map.
 
 mod damage_sheet;
-mod fixed;
+pub(crate) mod fixed;
 
 use rerun::{Arrows3D, Color, Mesh3D, Points3D, Radius};
 

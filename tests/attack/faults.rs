@@ -400,7 +400,9 @@ pub(crate) fn all() -> Vec<Tally> {
 
 /// Waits until a run has written rows of its table, and so has all its files open.
 fn wait_for_rows(place: &Place) {
-    let is_table = |name: &String| name.contains(".part-") && name.ends_with(".csv");
+    let is_table = |name: &String| {
+        name.contains(".part-") && Path::new(name).extension().is_some_and(|it| it == "csv")
+    };
     let rows = || {
         let name = place.names().into_iter().find(is_table)?;
         let text = std::fs::read_to_string(place.folder().join(name)).ok()?;

@@ -60,7 +60,7 @@ fn from_the_same_start(extra: &[&str]) -> (Simulation, Vec<[f64; 2]>) {
     });
     let sets = [&SWELL[..], &["time.passages=0.6"], extra].concat();
     let mut sim = simulation(&sets);
-    sim.restore(&start).unwrap();
+    sim.restore(start).unwrap();
     let end_s = 0.6 * 4.0 * sim.summary().a_m / 2.0;
     let mut films = Vec::new();
     while sim.time_s() < end_s {

@@ -44,7 +44,7 @@ fn functions_fit_on_a_screen() {
         let lines: Vec<&str> = text.lines().collect();
         for (at, line) in lines.iter().enumerate() {
             let code = line.trim_start();
-            if !code.starts_with("fn ") && !(code.starts_with("pub") && code.contains(" fn ")) {
+            if !(code.starts_with("fn ") || code.starts_with("pub") && code.contains(" fn ")) {
                 continue;
             }
             let close = format!("{}}}", &line[..line.len() - code.len()]);

@@ -43,6 +43,9 @@ pub fn identity(path: &Path) -> PathBuf {
 }
 
 /// Brings a file to the disk.
+///
+/// # Errors
+/// When the disk refuses.
 pub fn sync_file(path: &Path) -> Result<()> {
     OpenOptions::new().write(true).open(path)?.sync_all()
 }
@@ -56,6 +59,9 @@ pub fn sync_folder(folder: &Path) {
 }
 
 /// Gives a whole file its name. `replaces`: it may take the name of another.
+///
+/// # Errors
+/// When the name cannot be given.
 pub fn publish(part: &Path, path: &Path, replaces: bool) -> Result<()> {
     if replaces {
         std::fs::rename(part, path)?;

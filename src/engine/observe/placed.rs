@@ -264,6 +264,9 @@ impl Placed {
     }
 
     /// There is something in it that is worth its name, which it takes if nothing has it.
+    ///
+    /// # Errors
+    /// When the file or its folder cannot be written.
     pub fn hold(&mut self) -> std::io::Result<()> {
         let is_first = !std::mem::replace(&mut self.holds_something, true);
         if is_first && self.name == Name::Free {
@@ -285,6 +288,9 @@ impl Placed {
     }
 
     /// Brings it to the disk and gives it its name; takes it away if nothing is in it. Whether it is there.
+    ///
+    /// # Errors
+    /// When the file or its folder cannot be written.
     pub fn settle(&mut self) -> std::io::Result<bool> {
         if self.is_settled || self.name == Name::Device {
             self.is_settled = true;

@@ -183,7 +183,7 @@ impl StressStage {
                 Some(Loading::Normal(BodyId::One))
             }
             (Loading::Full(body), TractionActs::None) => Some(Loading::Normal(body)),
-            (Loading::Normal(_), _) | (Loading::Full(_), _) => None,
+            (Loading::Normal(_) | Loading::Full(_), _) => None,
         }
     }
 

@@ -123,9 +123,9 @@ impl Pixels {
         // The library's scale is the height of a line.
         let scale = size * f64::from(font.height_unscaled()) / font::units_per_em(font);
         let scale = PxScale::from(scale as f32);
-        let mut along = -text.anchor.share() * text_width(&text.text) * size;
+        let mut along = -text.anchor.share() * text_width(&text.words) * size;
         let at = text.at.map(|at| at.round() as i64);
-        for letter in text.text.chars() {
+        for letter in text.words.chars() {
             let id = font.glyph_id(letter);
             let glyph = id.with_scale_and_position(scale, glyph_point(along as f32, 0.0));
             along += font::advance(font, id) * size;

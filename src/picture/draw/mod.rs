@@ -134,7 +134,7 @@ impl TextAnchor {
 #[derive(Debug, Clone)]
 pub(crate) struct Text {
     at: [f64; 2],
-    text: String,
+    words: String,
     anchor: TextAnchor,
     is_turned: bool,
     colour: Rgb,
@@ -147,7 +147,7 @@ impl Text {
     pub(crate) fn new(at: [f64; 2], text: impl Into<String>) -> Self {
         Self {
             at,
-            text: text.into(),
+            words: text.into(),
             anchor: TextAnchor::Start,
             is_turned: false,
             colour: INK,

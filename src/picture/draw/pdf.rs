@@ -34,7 +34,7 @@ impl Letters {
     fn of(font: &FontRef, texts: &[Text]) -> Self {
         let mut remapper = GlyphRemapper::new();
         let mut letters = BTreeMap::new();
-        for letter in texts.iter().flat_map(|text| text.text.chars()) {
+        for letter in texts.iter().flat_map(|text| text.words.chars()) {
             let id = font.glyph_id(letter);
             letters.entry(letter).or_insert_with(|| Letter {
                 glyph: remapper.remap(id.0),
@@ -136,7 +136,7 @@ impl Drawing {
         }
         for text in &self.texts {
             let size = self.font * text.size;
-            let before = text.anchor.share() * text_width(&text.text) * size;
+            let before = text.anchor.share() * text_width(&text.words) * size;
             let ([x, y], before) = (place(text.at), before as f32);
             let matrix = if text.is_turned {
                 [0.0, 1.0, -1.0, 0.0, x, y - before]
@@ -146,7 +146,7 @@ impl Drawing {
             let [r, g, b] = shares(text.colour);
             out.begin_text().set_fill_rgb(r, g, b);
             out.set_font(FONT, size as f32).set_text_matrix(matrix);
-            out.show(Str(&letters.coded(&text.text))).end_text();
+            out.show(Str(&letters.coded(&text.words))).end_text();
         }
         out.finish().into_vec()
     }

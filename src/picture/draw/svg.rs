@@ -79,7 +79,7 @@ fn write_text(svg: &mut String, text: &Text, size: f64) {
         "<text x=\"{x:.2}\" y=\"{y:.2}\" font-family=\"DejaVu Sans, Arial, sans-serif\" font-size=\"{size:.2}\" \
          text-anchor=\"{anchor}\" fill=\"{}\"{turn}>{}</text>",
         hex(text.colour),
-        escaped(&text.text)
+        escaped(&text.words)
     );
 }
 

@@ -110,6 +110,9 @@ struct Finished {
     seconds: f64,
 }
 
+/// A column: its name and what a run has in it.
+type Column<'a> = (&'static str, Box<dyn Fn(&WholeRun) -> String + 'a>);
+
 fn run(setting: Resolution, more: &[&str], threads: usize) -> Result<Finished, String> {
     let mut sets = setting.keys();
     sets.push("numerics.error_estimate=none".to_owned());
@@ -250,7 +253,7 @@ pub(super) fn whole_text(runs: &[WholeRun], passages: f64) -> String {
         let cell = move |run: &WholeRun| format!("{:+.2}", percent(run));
         (name, Box::new(cell) as Box<dyn Fn(&WholeRun) -> String>)
     });
-    let mut columns: Vec<(&'static str, Box<dyn Fn(&WholeRun) -> String>)> = vec![
+    let mut columns: Vec<Column> = vec![
         ("nodes", Box::new(|run| run.setting.nodes.to_string())),
         ("order", Box::new(|run| run.setting.order_name().to_owned())),
         ("step", Box::new(|run| run.setting.step.to_string())),

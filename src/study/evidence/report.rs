@@ -147,7 +147,12 @@ fn push_experiment(text: &mut String, tried: &Tried) {
     let mut damages = by_counting(&["point", "scene"]);
     for (point, found) in experiment.point.iter().zip(&tried.damages) {
         let body = if point.body == 1 { "" } else { " (body 2)" };
-        let sets: String = (point.set.iter().map(|set| format!(" --set {set}"))).collect();
+        let sets: Vec<String> = point
+            .set
+            .iter()
+            .map(|set| format!(" --set {set}"))
+            .collect();
+        let sets = sets.concat();
         let mut row = vec![
             format!("{}{body}", point.label),
             format!("evidence/{}{sets}", point.scene),

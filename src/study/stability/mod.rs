@@ -120,9 +120,12 @@ fn run_case(set: &CaseSet, case: &Case, nodes: usize) -> StabilityRow {
     }
 }
 
+/// A column: its name and what a row has in it.
+type Column = (&'static str, fn(&StabilityRow) -> String);
+
 /// The cases, then the long run.
 pub fn stability_report(result: &Stability) -> Report {
-    let columns: [(&str, fn(&StabilityRow) -> String); 18] = [
+    let columns: [Column; 18] = [
         ("group", |row| row.group.clone()),
         ("case", |row| row.name.clone()),
         ("ending", |row| row.trial.ending.text()),

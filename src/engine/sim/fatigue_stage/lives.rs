@@ -22,29 +22,11 @@ impl LifeStage {
         let integral = LifeIntegral::of(basis);
         let shares = variant.shares(integral)?;
         Some(BodyId::BOTH.map(|body| {
-            let profile = self.profile(body, basis, now.n[body.index()], counting)?;
+            let profile = cycle_profile(body, basis, now.n[body.index()], counting)?;
             let ln_reference = self.ln_reference(variant, body, integral, now.size);
             let f = factors(self.law, shares, body, ln_reference, profile);
             f.relative.is_finite().then_some(f)
         }))
-    }
-
-    fn profile<'a>(
-        &self,
-        body: BodyId,
-        basis: CycleBasis,
-        n: Option<f64>,
-        counting: Option<&'a Counting>,
-    ) -> Option<CycleProfile<'a>> {
-        match basis {
-            // A body that stands has no cycles of its own, but those of the other.
-            CycleBasis::Damage => counting?.profile(body, basis),
-            CycleBasis::Global => Some(CycleProfile::Global(n?)),
-            CycleBasis::Peaks => {
-                n?;
-                counting?.profile(body, basis)
-            }
-        }
     }
 
     /// The body that gives the life.
@@ -100,5 +82,23 @@ impl LifeStage {
             }
         }
         (low, high, count)
+    }
+}
+
+/// How often a body is stressed by that count; `None`: not known yet.
+fn cycle_profile(
+    body: BodyId,
+    basis: CycleBasis,
+    n: Option<f64>,
+    counting: Option<&Counting>,
+) -> Option<CycleProfile<'_>> {
+    match basis {
+        // A body that stands has no cycles of its own, but those of the other.
+        CycleBasis::Damage => counting?.profile(body, basis),
+        CycleBasis::Global => Some(CycleProfile::Global(n?)),
+        CycleBasis::Peaks => {
+            n?;
+            counting?.profile(body, basis)
+        }
     }
 }

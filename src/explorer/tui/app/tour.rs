@@ -35,7 +35,7 @@ impl App {
             match action {
                 Action::ChooseNext => self.lesson.chosen = (self.lesson.chosen + 1) % all.max(1),
                 Action::ChoosePrevious => {
-                    self.lesson.chosen = (self.lesson.chosen + all - 1) % all.max(1)
+                    self.lesson.chosen = (self.lesson.chosen + all - 1) % all.max(1);
                 }
                 Action::Enter => return Some(self.begin_beat(self.lesson.chosen, 0)),
                 Action::Typical(place) if place < all => return Some(self.begin_beat(place, 0)),

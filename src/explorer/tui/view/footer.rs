@@ -73,7 +73,7 @@ fn left_out(app: &App, room: usize) -> String {
     let all = app
         .view
         .theme
-        .words(&format!("not computed: {}", stages.join(", ")));
+        .words(format!("not computed: {}", stages.join(", ")));
     if all.chars().count() + 4 <= room {
         all
     } else {
