@@ -27,7 +27,6 @@ impl Clock {
 
     /// Seconds since then; none pass without a clock.
     #[cfg(target_arch = "wasm32")]
-    #[expect(clippy::unused_self, reason = "as with a clock")]
     pub fn elapsed_s(self) -> f64 {
         0.0
     }
