@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use asperity_session::run::{Command, HandTurn};
+#[cfg(feature = "rerun")]
+use asperity_session::run::Command;
+use asperity_session::run::HandTurn;
 
 use super::args::RunArgs;
 use super::failure::Failure;
