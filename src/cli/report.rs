@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use asperity_engine::math::number::{GPA, NM, UM, counted, seconds, sig};
 use asperity_engine::scene::{ContactKind, Scene};
-use asperity_engine::sim::{CATALOGUE, LubricationRegime, Rhythm, Summary};
+use asperity_engine::sim::{CATALOGUE, LubricationRegime, Rhythm, Rung, Summary};
 use asperity_session::run::{End, Outcome};
 
 pub(crate) use self::complaints::complaints;
@@ -36,6 +36,10 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> St
     }
     if let Some(summary) = &outcome.summary {
         lines.add("run", run_line(outcome));
+        for (n, done) in summary.rungs.iter().enumerate() {
+            let name = if n == 0 { "meshes" } else { "" };
+            lines.add(name, format!("{}²: {}", done.nodes, rung(done)));
+        }
         add_results(&mut lines, scene, summary);
         if let Some(errors) = errors {
             lines.add("discretisation", errors);
@@ -230,8 +234,21 @@ fn regime(scene: &Scene, s: &Summary) -> String {
     )
 }
 
-/// The discretisation error of a run, from a companion on `nodes` that took `wall_s`.
-pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: f64) -> String {
+/// What a mesh of a ladder came to, in one line.
+pub(crate) fn rung(rung: &Rung) -> String {
+    let after = format!("after {:.2} s", rung.seconds);
+    let Some(life) = rung.life_relative else {
+        return format!("done {after}");
+    };
+    let band = known(
+        rung.life_relative_low.zip(rung.life_relative_high),
+        |(low, high)| format!(", {} to {}", sig(low, 3), sig(high, 3)),
+    );
+    format!("life {}{band}, {after}", sig(life, 4))
+}
+
+/// The discretisation error of a run, from one on `nodes`; `wall_s`: what that took, where it was made for this alone.
+pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: Option<f64>) -> String {
     let is_dry = s.regime == LubricationRegime::Dry;
     let mut parts = Vec::new();
     let mut add = |name: &str, error: Option<f64>, value: f64| {
@@ -282,7 +299,8 @@ pub(crate) fn errors(s: &Summary, nodes: usize, wall_s: f64) -> String {
         format!("; extrapolated: {}", limits.join(", "))
     };
     let parts = parts.join(", ");
-    format!("{parts}; from {nodes} nodes in {wall_s:.1} s{limit}")
+    let time = known(wall_s, |wall_s| format!(" in {wall_s:.1} s"));
+    format!("{parts}; from {nodes} nodes{time}{limit}")
 }
 
 /// Whether the passage repeats, in words.

@@ -168,6 +168,11 @@ fn estimate_errors(
     let Some(summary) = outcome.summary.as_mut().filter(|_| finished) else {
         return "not estimated: the run did not finish".to_owned();
     };
+    if let [.., below, _] = summary.rungs[..]
+        && summary.error_h_central_m.is_some()
+    {
+        return report::errors(summary, below.nodes, None);
+    }
     let compared = Companion::start(scene, plan, threads).and_then(|companion| {
         let share = plan.cost.time_s / 7.0;
         wait(&companion.session, share, interrupt, "error estimate, ");
@@ -175,7 +180,7 @@ fn estimate_errors(
         Ok((nodes, companion.compare(summary)?.wall_s))
     });
     match compared {
-        Ok((nodes, wall_s)) => report::errors(summary, nodes, wall_s),
+        Ok((nodes, wall_s)) => report::errors(summary, nodes, Some(wall_s)),
         Err(reason) => format!("not estimated: {reason}"),
     }
 }
@@ -204,15 +209,22 @@ fn wait(session: &Session, estimate_s: f64, interrupt: &AtomicBool, what: &str) 
     } else {
         ProgressBar::hidden()
     };
+    let mut n_told = 0;
     while !session.is_finished() {
         if interrupt.load(Ordering::Relaxed) {
             // A run that has ended hears nothing.
             session.handle.send(Command::Stop);
         }
         let status = session.handle.status();
+        for rung in status.rungs.iter().skip(n_told) {
+            bar.suspend(|| tell(&format!("{}²: {}", rung.nodes, report::rung(rung))));
+        }
+        n_told = n_told.max(status.rungs.len());
         bar.set_position((status.progress * TICKS) as u64);
         if bar.message().is_empty() || status.steps > 0 {
-            bar.set_message(if status.steps == 0 {
+            bar.set_message(if status.steps == 0 && status.nodes > 0 {
+                format!("{what}{}²", status.nodes)
+            } else if status.steps == 0 {
                 format!("{what}start-up")
             } else {
                 format!("{what}step {}", status.steps)

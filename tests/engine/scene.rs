@@ -226,6 +226,7 @@ fn every_number_key_refuses_what_is_no_number_or_out_of_range() {
             keys::Kind::NumberOrInf(..) => &["nan", "-inf", "-1.0", "0.0", "\"x\""],
             keys::Kind::Integer(..) | keys::Kind::IntegerOf(_) => &["1.5", "-1", "99999999", "nan"],
             keys::Kind::Choice(_) => &["\"nonsense\"", "1.0", "nan"],
+            keys::Kind::Switch => &["\"true\"", "1", "nan"],
         };
         for value in bad {
             let error = load(presets::DEFAULT, &[&format!("{path}={value}")]).unwrap_err();

@@ -197,6 +197,7 @@ fn check_value(full: &str, key: &Key, value: &mut Value) -> Result<(), SceneErro
             (value.as_integer()).is_some_and(|whole| values.contains(&whole))
         }
         Kind::Choice(words) => value.as_str().is_some_and(|text| words.contains(&text)),
+        Kind::Switch => value.is_bool(),
     };
     if fits {
         Ok(())

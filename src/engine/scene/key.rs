@@ -17,6 +17,8 @@ pub enum Kind {
     IntegerOf(&'static [i64]),
     /// One of a few words.
     Choice(&'static [&'static str]),
+    /// `true` or `false`.
+    Switch,
 }
 
 /// Whether a key or a table may be left out.

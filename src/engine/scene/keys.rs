@@ -16,7 +16,7 @@ pub struct Section {
     pub keys: &'static [Key],
 }
 
-use Kind::{Choice, EitherSign, Integer, IntegerOf, Number, NumberOrInf, Text};
+use Kind::{Choice, EitherSign, Integer, IntegerOf, Number, NumberOrInf, Switch, Text};
 use Need::{Defaulted, Optional, Required};
 
 use super::lubricant::{Cavitation, DensityLaw, EyringFlow, Rheology, ViscosityLaw};
@@ -164,7 +164,8 @@ pub const SECTIONS: &[Section] = &[
             key("tolerance", "", Number(1e-9, 0.1), Defaulted, "relative change of the pressure"),
             key("max_iterations", "", Integer(1, 1000), Defaulted, "most Newton iterations of one step"),
             key("order", "", Choice(OrderAsked::KEYS), Defaulted, "of steps, flow and deflection where they are smooth: 2, or 3 in time and up to 4 in space; by_mesh: high as long as the mesh carries the smooth film"),
-            key("error_estimate", "", Choice(ErrorSource::KEYS), Defaulted, "headless runs: error of the mesh from a second run on half the nodes, or none"),
+            key("error_estimate", "", Choice(ErrorSource::KEYS), Defaulted, "headless runs: error of the mesh from a run on half the nodes, the last but one of the ladder or a second one; or none"),
+            key("ladder", "", Switch, Defaulted, "meshes from the coarsest that carries the waves up to grid.nodes, each going on from the one before; false: that mesh alone"),
         ],
     },
     Section {
@@ -226,7 +227,7 @@ impl Kind {
             Number(min, max) => (min..=max).contains(&number),
             EitherSign(min, max) => (min..=max).contains(&number.abs()),
             NumberOrInf(min, max) => (min..=max).contains(&number) || number == f64::INFINITY,
-            Text(_) | Integer(..) | IntegerOf(_) | Choice(_) => false,
+            Text(_) | Integer(..) | IntegerOf(_) | Choice(_) | Switch => false,
         }
     }
 
@@ -235,7 +236,7 @@ impl Kind {
         match *self {
             EitherSign(min, max) if home < 0.0 => Some((-max, -min)),
             Number(min, max) | EitherSign(min, max) | NumberOrInf(min, max) => Some((min, max)),
-            Text(_) | Integer(..) | IntegerOf(_) | Choice(_) => None,
+            Text(_) | Integer(..) | IntegerOf(_) | Choice(_) | Switch => None,
         }
     }
 
@@ -244,7 +245,7 @@ impl Kind {
         match *self {
             Choice(words) => words.contains(&word),
             Text(_) | Number(..) | EitherSign(..) | NumberOrInf(..) | Integer(..)
-            | IntegerOf(_) => false,
+            | IntegerOf(_) | Switch => false,
         }
     }
 }
@@ -274,6 +275,7 @@ impl Key {
                 format!("one of {}", list.join(", "))
             }
             Choice(words) => quoted(words),
+            Switch => "true or false".to_owned(),
         }
     }
 }

@@ -40,6 +40,8 @@ pub struct Numerics {
     pub order: OrderAsked,
     /// Where a headless run's estimate of its discretisation error comes from.
     pub error_estimate: ErrorSource,
+    /// Whether a run climbs a ladder of meshes up to `grid.nodes`; else it is made on that mesh alone.
+    pub ladder: bool,
 }
 
 closed_set! {
@@ -86,7 +88,7 @@ pub enum Order {
 closed_set! {
     /// Where the estimate of the discretisation error comes from.
     pub enum ErrorSource {
-        /// A second run on half the nodes each way.
+        /// A run on half the nodes each way: that of the ladder, or a second one.
         Companion = "companion",
         /// No estimate.
         None = "none",
@@ -100,6 +102,7 @@ impl Default for Numerics {
             max_iterations: 20,
             order: OrderAsked::Second,
             error_estimate: ErrorSource::Companion,
+            ladder: true,
         }
     }
 }

@@ -86,6 +86,14 @@ impl Drive {
             .any(|setting| setting.now != setting.target)
     }
 
+    /// Time (a/U) until all knobs are where they go.
+    pub(super) fn walk_left(&self) -> f64 {
+        let settings = self.settings.iter().filter(|setting| setting.now != setting.target);
+        settings
+            .map(|setting| (setting.target - setting.now).abs() / setting.rate)
+            .fold(0.0, f64::max)
+    }
+
     /// One time step of `dt` (a/U).
     pub(super) fn walk(&mut self, dt: f64) {
         for setting in &mut self.settings {

@@ -42,7 +42,7 @@ pub use fields::{DamageBlock, Follow, MaterialPoint, PassedPeak, StressPlane, St
 pub use frame::{CATALOGUE, Dimension, Frame, Metrics, Over, Quantity, Reading, Stage, named};
 pub use grounds::Grounds;
 pub use lubrication::LubricationRegime;
-pub use simulation::Simulation;
+pub use simulation::{Simulation, head_start};
 pub use state::State;
 pub use stats::Stats;
-pub use summary::{PitStart, Summary};
+pub use summary::{PitStart, Rung, Summary};

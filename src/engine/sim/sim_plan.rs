@@ -44,6 +44,8 @@ pub(super) struct SimPlan {
     pub(super) rms_shares: [f64; 2],
     /// Hardness of the softer body over p_h; infinite: both are elastic.
     pub(super) hardness: f64,
+    /// Whether a finer mesh is to go on from this run: it keeps what that needs.
+    pub(super) hands_on: bool,
 }
 
 impl SimPlan {
@@ -66,6 +68,7 @@ impl SimPlan {
             cuts: cuts(scene),
             rms_shares: scene.surfaces().map(rms_share),
             hardness: hardness.map_or(f64::INFINITY, |pa| scaling.p_from_pa(pa)),
+            hands_on: false,
             decided,
             scaling,
         }
@@ -151,6 +154,11 @@ impl SimPlan {
     /// Steps of the usual length in so much time (a/U) on the finest grid.
     pub(super) fn steps_of(&self, time: f64) -> u64 {
         (time / self.usual_step(self.decided.domain.nodes)).ceil() as u64
+    }
+
+    /// Length of the usual step on the finest grid, in a.
+    pub(super) fn usual_dt(&self) -> f64 {
+        self.stepping.usual() * self.decided.domain.dx_a()
     }
 
     /// Length of the usual step on a grid of `nodes` per side, in a.

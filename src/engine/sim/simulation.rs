@@ -10,6 +10,7 @@
 mod fill;
 mod follow;
 mod present;
+mod rung;
 mod smooth_reference;
 mod start_up;
 mod state_check;
@@ -31,6 +32,7 @@ use crate::saved::Saved as _;
 use crate::scene::Scene;
 use crate::sim::pace::Stepping;
 use state_check::{check, check_course, check_stats};
+pub use rung::head_start;
 use step::{forget_passage, step};
 use view::View;
 use watching::{publish, see_again};
@@ -247,6 +249,29 @@ impl Simulation {
     /// is as it was.
     pub fn follow(&mut self, neighbour: &State) -> Result<(), SimError> {
         follow::follow(&self.plan, &mut self.state, &mut self.work, neighbour)
+    }
+
+    /// Keeps from now on what a run on a finer mesh needs ([`Simulation::climb`]).
+    pub fn hand_on(&mut self) {
+        self.plan.hands_on = true;
+    }
+
+    /// Goes on from `lower`, a run of the same scene on half the intervals that [hands on](Self::hand_on), in place of the
+    /// start-up.
+    ///
+    /// # Errors
+    /// [`SimError::State`] when it is none, or when its passage has not begun; the simulation is as it was.
+    pub fn climb(&mut self, lower: &State) -> Result<(), SimError> {
+        rung::climb(&self.plan, &mut self.state, &mut self.work, lower)
+    }
+
+    /// Sends both surfaces ahead, before the first step, by so much (in a): see [`head_start`].
+    pub fn start_ahead(&mut self, distances: [f64; 2]) {
+        let travelled = &mut self.state.motion.travelled;
+        for (travelled, distance) in travelled.iter_mut().zip(distances) {
+            *travelled += distance;
+        }
+        self.state.watched = self.state.motion.travelled;
     }
 
     /// What a restart needs, as it is between two steps.

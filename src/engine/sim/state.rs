@@ -23,7 +23,8 @@ use super::work::Work;
 use super::yielded::Yielded;
 use super::{Knob, MeshErrors, Metrics, Stage};
 use crate::saved::saved;
-use crate::solve::march;
+use crate::scene::Scene;
+use crate::solve::march::ContactState;
 
 /// Where the run is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -55,7 +56,7 @@ impl Phase {
 pub struct State {
     /// Nodes per side of the grid that the contact is on: the start-up climbs through several.
     pub(super) nodes: usize,
-    pub(super) contact: march::ContactState,
+    pub(super) contact: ContactState,
     pub(super) drive: Drive,
     /// The knobs as they were set; in the smooth start-up the drive does not follow yet.
     #[serde(rename = "wanted")]
@@ -69,6 +70,9 @@ pub struct State {
     pub(super) life: Option<LifeStage>,
     /// Under way to the reference of now; `None`: that is known.
     pub(super) smooth: Option<Smooth>,
+    /// The smooth contact that lives are relative to, for the next finer mesh; `None`: there is none, or it is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) reference: Option<ContactState>,
     pub(super) phase: Phase,
     pub(super) metrics: Metrics,
     pub(super) totals: Totals,
@@ -92,10 +96,25 @@ pub struct State {
 saved! {
     State {
         parts: motion, yielded, counting, life, totals, orbit, pace;
-        free: nodes, contact, drive, targets, watched, smooth, phase, metrics, coarser, mesh_errors, distance,
+        free: nodes, contact, drive, targets, watched, smooth, reference, phase, metrics, coarser, mesh_errors, distance,
             next_volume, step, time_s, start_up_steps;
     }
     holds |_, saved| saved.distance >= 0.0 && saved.time_s >= 0.0
+}
+
+/// The knobs of a scene, at rest.
+pub(super) fn drive_of(scene: &Scene) -> Drive {
+    Drive::new(|knob| {
+        let value = match knob {
+            Knob::EntrainmentMS => knob.of(scene).abs(),
+            Knob::SlideRoll
+            | Knob::ForceN
+            | Knob::ForceNPerM
+            | Knob::Amplitude1M
+            | Knob::Amplitude2M => knob.of(scene),
+        };
+        (value, knob.line().ramp.rate(value))
+    })
 }
 
 impl State {
@@ -114,17 +133,7 @@ impl State {
             spec.laws = life.as_ref().map(|life| life.laws.clone());
             Counting::new(&fine, stress.depths(), &spec)
         });
-        let targets = Drive::new(|knob| {
-            let value = match knob {
-                Knob::EntrainmentMS => knob.of(scene).abs(),
-                Knob::SlideRoll
-                | Knob::ForceN
-                | Knob::ForceNPerM
-                | Knob::Amplitude1M
-                | Knob::Amplitude2M => knob.of(scene),
-            };
-            (value, knob.line().ramp.rate(value))
-        });
+        let targets = drive_of(scene);
         let repeats = [0, 1].map(|body: usize| work.roughness.repeat(body));
         let yields = plan.hardness.is_finite();
         Self {
@@ -138,6 +147,7 @@ impl State {
             counting,
             life,
             smooth: None,
+            reference: None,
             phase: Phase::Smooth {
                 left: plan.smooth_steps(nodes, decided.has_flow()),
             },

@@ -189,6 +189,12 @@ pub struct Summary {
     pub life_extrapolated: Option<f64>,
     /// Same of `h_central_m`, m.
     pub h_central_extrapolated_m: Option<f64>,
+    /// The meshes that the run has climbed, the coarsest first and its own last; empty: there was one alone.
+    #[serde(default)]
+    pub rungs: Vec<Rung>,
+    /// Seconds until the first mesh had a life; `None`: there is none.
+    #[serde(default)]
+    pub first_life_s: Option<f64>,
     /// Quantities of the catalogue that are shown by themselves, summed up as it says, by their keys there.
     #[serde(flatten)]
     pub by_itself: BTreeMap<String, Option<f64>>,
@@ -203,4 +209,19 @@ pub struct PitStart {
     pub place_m: f64,
     /// Damage of a crossing over that of the worst point of the smooth contact.
     pub damage: f64,
+}
+
+/// What one mesh of a ladder came to.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Rung {
+    /// Nodes per side.
+    pub nodes: usize,
+    /// Life on it.
+    pub life_relative: Option<f64>,
+    /// Lower end of its band.
+    pub life_relative_low: Option<f64>,
+    /// Upper end.
+    pub life_relative_high: Option<f64>,
+    /// Seconds from the start of the run to its end.
+    pub seconds: f64,
 }

@@ -107,6 +107,25 @@ impl Variant {
         self.reference.clone_from(&other.base);
     }
 
+    /// Begins with base and reference of a variant of the same make on a coarser mesh.
+    pub(super) fn take_references(&mut self, other: &Self) {
+        self.base.clone_from(&other.base);
+        self.reference.clone_from(&other.reference);
+    }
+
+    /// The base is what it was on the coarser mesh, times what the reference there has become on this one.
+    pub(super) fn raise_base(&mut self, coarser: &Self) {
+        let pairs = coarser.base.iter().zip(&coarser.reference);
+        for ((own, reference), (base, before)) in self.base.iter_mut().zip(&self.reference).zip(pairs) {
+            // Below a fatigue limit all are −∞.
+            *own = if base == before {
+                *reference
+            } else {
+                base + (reference - before)
+            };
+        }
+    }
+
     /// Takes the reference of `other`, a variant of the same make, for the one of now; the base stays.
     pub(super) fn move_reference(&mut self, other: &Self) {
         self.reference.clone_from(&other.reference);

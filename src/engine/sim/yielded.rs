@@ -127,7 +127,50 @@ impl Yielded {
     }
 }
 
+impl Yielded {
+    /// Takes over what has flowed on a coarser grid of the same domain.
+    pub(super) fn take_over(&mut self, grid: &Grid, coarser: &Self, coarse: &Grid) {
+        for pair in self.skins.iter_mut().zip(&coarser.skins) {
+            if let (Some(own), Some(other)) = pair {
+                own.take_over(grid, other, coarse);
+            }
+        }
+    }
+}
+
 impl Skin {
+    /// Column by column, between the coarser one's rows linear; what lies outside of the domain on a body whose relief
+    /// does not come back is virgin.
+    fn take_over(&mut self, grid: &Grid, coarser: &Self, coarse: &Grid) {
+        (self.volume, self.distance) = (coarser.volume, coarser.distance);
+        self.amplitude = coarser.amplitude;
+        for c in 0..self.columns {
+            let material = c as f64 * self.spacing();
+            let round = (material + self.distance - grid.x_min).rem_euclid(self.length);
+            let is_known = self.returns || round <= coarse.dx * (coarse.nx - 1) as f64;
+            // By its place in the domain: rings that do not come back are of another length.
+            let place = if self.returns {
+                material
+            } else {
+                round + grid.x_min - self.distance
+            };
+            let (columns, weights) = coarser.around(place);
+            let at = |row: usize| -> f64 {
+                let depth = &coarser.depth[row * coarser.columns..][..coarser.columns];
+                let pairs = columns.iter().zip(weights);
+                pairs.map(|(&k, weight)| weight * depth[k]).sum()
+            };
+            for j in 0..grid.ny {
+                let (below, above) = match grid.ny {
+                    1 => (0, 0),
+                    _ => (j / 2, j.div_ceil(2)),
+                };
+                let w = 0.5 * (at(below) + at(above));
+                self.depth[j * self.columns + c] = if is_known { w.max(0.0) } else { 0.0 };
+            }
+        }
+    }
+
     fn new(grid: &Grid, repeat: Option<f64>, share: f64) -> Self {
         let domain = grid.dx * (grid.nx - 1) as f64;
         let ring = match repeat {

@@ -12,6 +12,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::ladder::Climb;
 use asperity_engine::files::fnv;
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{State, Stats};
@@ -41,6 +42,9 @@ pub struct Checkpoint {
     pub n_turned_by_hand: usize,
     /// Work that was counted.
     pub stats: Stats,
+    /// How far it has climbed its meshes.
+    #[serde(default)]
+    pub climb: Climb,
     /// The simulation.
     pub sim: State,
 }
@@ -138,6 +142,11 @@ impl Checkpoint {
         writeln!(file, "{MAGIC}{:016x}", fnv(body.as_bytes()))?;
         file.write_all(body.as_bytes())?;
         file.sync_all()
+    }
+
+    /// Whether it is one of the scene's own mesh.
+    pub(super) fn is_on_top(&self, scene: &Scene) -> bool {
+        self.climb.nodes == 0 || self.climb.nodes == scene.grid.nodes
     }
 
     /// Whether a run of `scene` can go on from here: all must agree but words, outputs and the length of

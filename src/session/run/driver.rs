@@ -1,12 +1,14 @@
 //! The loop itself: commands, script, step, frames, in this order, on the simulation's thread.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::sync::mpsc::TryRecvError;
 
 use super::checkpoint::Checkpoint;
 use super::clock::Clock;
 use super::command::{AppliedCommand, Command, HandTurn};
 use super::handle::RunLink;
+use super::ladder::{Climb, Ladder};
 use super::outcome::{End, Outcome, Unconverged};
 use super::outputs::Outputs;
 use super::request::{Ending, Request};
@@ -67,12 +69,16 @@ pub(super) struct Start {
     pub(super) turns: Vec<HandTurn>,
     /// What makes a step, where it is not the simulation itself.
     pub(super) make_step: Option<MakeStep>,
+    /// The meshes that it climbs; `None`: it stays on the scene's own.
+    pub(super) ladder: Option<Arc<Ladder>>,
+    /// How far it has come on them.
+    pub(super) climb: Climb,
 }
 
 /// The loop's own state, on the simulation's thread.
 pub(super) struct Driver {
     name: String,
-    context: RunContext,
+    pub(super) context: RunContext,
     make_step: Option<MakeStep>,
     ending: Ending,
     /// Steps of the whole run; `None`: it has no end.
@@ -94,15 +100,23 @@ pub(super) struct Driver {
     n_turned_by_hand: usize,
     /// When the first step of the passage was done.
     passage_began: Option<Clock>,
+    pub(super) ladder: Option<Arc<Ladder>>,
+    pub(super) climb: Climb,
+    pub(super) threads: usize,
+    pub(super) started: Clock,
+}
+
+/// The scene's events in the order of their times, without those that another run has played.
+pub(super) fn script_of(scene: &Scene, n_played: usize) -> VecDeque<Event> {
+    let mut script = scene.events.clone();
+    script.sort_by(|one, two| one.at_s.total_cmp(&two.at_s));
+    script.drain(..n_played.min(script.len()));
+    script.into()
 }
 
 impl Driver {
     pub(super) fn new(request: Request, start: Start, link: RunLink) -> Self {
         let context = request.context(start.began);
-        let mut script = request.scene.events.clone();
-        script.sort_by(|one, two| one.at_s.total_cmp(&two.at_s));
-        // What another run has done is not done again.
-        script.drain(..start.n_events_played.min(script.len()));
         Self {
             name: request.name,
             context,
@@ -114,7 +128,7 @@ impl Driver {
                 Ending::OnStop => None,
             },
             outputs: Outputs::new(request.watchers),
-            script: script.into(),
+            script: script_of(&request.scene, start.n_events_played),
             turns: start.turns.into(),
             steps_made: 0,
             link,
@@ -127,6 +141,10 @@ impl Driver {
             n_events_played: start.n_events_played,
             n_turned_by_hand: start.n_turned_by_hand,
             passage_began: None,
+            ladder: start.ladder,
+            climb: start.climb,
+            threads: request.threads,
+            started: Clock::start(),
         }
     }
 
@@ -135,7 +153,6 @@ impl Driver {
         mut self,
         make: impl FnOnce(&Scene) -> Result<Simulation, SimError>,
     ) -> Outcome {
-        let started = Clock::start();
         // Outputs first: a path that cannot be written must not cost a start-up.
         self.begin_outputs();
         let mut summary = None;
@@ -145,26 +162,28 @@ impl Driver {
         let end = if self.must_end_for_outputs() {
             End::OutputFailed
         } else {
-            match make(&self.context.scene) {
-                Err(error) => End::NotStarted(error),
-                Ok(mut sim) => {
-                    let end = sim.inside(|sim| self.drive(sim));
-                    steps = sim.passage_steps();
-                    steps_per_s = self
-                        .passage_began
-                        .filter(|_| steps > 1)
-                        .map(|began| (steps - 1) as f64 / began.elapsed_s().max(1e-9));
-                    summary = (steps > 0).then(|| sim.summary());
-                    checkpoint = Some(self.checkpoint(&sim));
-                    end
-                }
+            let (end, sim) = self.go(make);
+            if let Some(sim) = &sim {
+                checkpoint = Some(self.checkpoint(sim));
             }
+            if let Some(sim) = sim.filter(|_| self.is_on_top()) {
+                steps = sim.passage_steps();
+                steps_per_s = self
+                    .passage_began
+                    .filter(|_| steps > 1)
+                    .map(|began| (steps - 1) as f64 / began.elapsed_s().max(1e-9));
+                summary = (steps > 0).then(|| sim.summary());
+            }
+            if let Some(summary) = &mut summary {
+                self.sum_up(summary, &end);
+            }
+            end
         };
         // A run without an end of its own is ended by whoever says stop.
         let stopped = matches!(end, End::Stopped) && self.ending != Ending::OnStop;
         self.publish_failure(&end);
         let reports = self.outputs.finish();
-        let wall_s = started.elapsed_s();
+        let wall_s = self.started.elapsed_s();
         if let Some(summary) = &mut summary {
             summary.scene = self.name;
             summary.wall_s = wall_s;
@@ -192,6 +211,20 @@ impl Driver {
         }
     }
 
+    /// The simulation of the scene alone, or of one mesh after the other.
+    fn go(
+        &mut self,
+        make: impl FnOnce(&Scene) -> Result<Simulation, SimError>,
+    ) -> (End, Option<Simulation>) {
+        match self.ladder.clone() {
+            Some(ladder) => self.go_up(&ladder, make),
+            None => match make(&self.context.scene) {
+                Err(error) => (End::NotStarted(error), None),
+                Ok(mut sim) => (sim.inside(|sim| self.drive(sim)), Some(sim)),
+            },
+        }
+    }
+
     fn checkpoint(&self, sim: &Simulation) -> Box<Checkpoint> {
         Box::new(Checkpoint {
             program: self.context.program.clone(),
@@ -200,12 +233,13 @@ impl Driver {
             n_unconverged: self.n_unconverged,
             n_turned_by_hand: self.n_turned_by_hand,
             stats: *sim.stats(),
+            climb: self.climb.clone(),
             sim: sim.save(),
         })
     }
 
     /// Steps until something ends the run.
-    fn drive(&mut self, sim: &mut Simulation) -> End {
+    pub(super) fn drive(&mut self, sim: &mut Simulation) -> End {
         if self.has_ended(sim) {
             // Taken up where all that is asked for had been done.
             return End::Done;
@@ -232,6 +266,7 @@ impl Driver {
             return LoopTurn::Ended(End::Stalled(error));
         }
         self.steps_made += 1;
+        self.keep_launch(sim);
         if self.pace == LoopState::OneStep {
             self.pace = LoopState::Paused;
         }
@@ -257,8 +292,9 @@ impl Driver {
 
     fn judge_step(&mut self, sim: &Simulation) {
         let metrics = sim.metrics();
-        // A start-up that did not converge is told too: what follows stands on it.
-        if metrics.converged {
+        // A start-up that did not converge is told too: what follows stands on it. On the coarser meshes of a ladder only
+        // the way to the last one is made.
+        if metrics.converged || !self.is_on_top() {
             return;
         }
         let residual = metrics.residual;
@@ -422,7 +458,7 @@ impl Driver {
     /// Gives the step to the screen, and to the outputs if it belongs to the results.
     fn hand_out(&mut self, sim: &Simulation) {
         let frame = self.pool.fill(|frame| sim.fill(frame));
-        if sim.stage() == Stage::Passage {
+        if sim.stage() == Stage::Passage && self.is_on_top() {
             self.passage_began.get_or_insert_with(Clock::start);
             self.outputs.frame(&frame);
         }
@@ -434,7 +470,11 @@ impl Driver {
         self.link.latest.put(frame);
     }
 
+    /// Tells the outputs; what happens on a coarser mesh happens again on the last.
     fn announce(&mut self, sim: &Simulation, kind: RunEventKind) {
+        if !self.is_on_top() {
+            return;
+        }
         let event = RunEvent {
             step: sim.passage_steps(),
             time_s: sim.time_s(),
@@ -447,12 +487,27 @@ impl Driver {
         self.ending != Ending::OnStop && !self.outputs.errors.is_empty()
     }
 
+    /// The script of another mesh.
+    pub(super) fn restart_script(&mut self, script: VecDeque<Event>) {
+        (self.script, self.n_events_played) = (script, 0);
+    }
+
+    pub(super) fn publish_rungs(&self) {
+        let mut shared = self.link.lock();
+        shared.status.rungs.clone_from(&self.climb.rungs);
+    }
+
     fn publish_status(&self, sim: &Simulation) {
+        let (nodes, is_on_top) = (self.climb.nodes, self.is_on_top());
+        let progress = (self.ladder.as_ref()).map_or(sim.progress(), |ladder| {
+            ladder.progress(nodes, sim.progress())
+        });
         let mut shared = self.link.lock();
         let status = &mut shared.status;
         status.stage = sim.stage();
-        status.progress = sim.progress();
-        status.steps = sim.passage_steps();
+        status.progress = progress;
+        status.nodes = nodes;
+        status.steps = if is_on_top { sim.passage_steps() } else { 0 };
         status.n_unconverged = self.n_unconverged;
         status.outputs.clear();
         status.outputs.extend(self.outputs.statuses());

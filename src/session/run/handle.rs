@@ -7,7 +7,7 @@ use super::command::Command;
 use super::outputs::WatcherStatus;
 use super::settled::Settled;
 use crate::Latest;
-use asperity_engine::sim::Stage;
+use asperity_engine::sim::{Rung, Stage};
 
 /// Where a session is.
 #[derive(Debug, Clone, Default)]
@@ -16,7 +16,11 @@ pub struct Status {
     pub stage: Stage,
     /// How much is done, 0 to 1.
     pub progress: f64,
-    /// Time steps after the start-up.
+    /// Nodes per side of the mesh that it is on; 0: it has none but the scene's.
+    pub nodes: usize,
+    /// The meshes that are done, where it climbs several.
+    pub rungs: Vec<Rung>,
+    /// Time steps after the start-up, on the scene's own mesh.
     pub steps: u64,
     /// Steps that did not converge.
     pub n_unconverged: u64,

@@ -12,13 +12,16 @@
 //! Without threads the owner makes the turns of the same loop itself: [`Cooperative`].
 
 mod checkpoint;
+mod climbing;
 mod clock;
 mod command;
 mod companion;
 mod cooperative;
 mod crew;
 mod driver;
+mod errors;
 mod handle;
+mod ladder;
 mod outcome;
 mod outputs;
 mod request;
@@ -28,11 +31,13 @@ mod settled;
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use clock::Clock;
 pub use command::{AppliedCommand, Command, HandTurn};
-pub use companion::{Companion, NoEstimate};
+pub use companion::Companion;
 pub use cooperative::Cooperative;
 pub use crew::share_out;
 pub use driver::LoopTurn;
+pub use errors::NoEstimate;
 pub use handle::{RunHandle, Status};
+pub use ladder::{Climb, Ladder, Mesh};
 pub use outcome::{End, Outcome, Unconverged};
 pub use outputs::{Activity, Switch, Watcher, WatcherStatus};
 pub use request::{Ending, Request};

@@ -5,11 +5,12 @@ use std::thread::JoinHandle;
 use thiserror::Error;
 
 use super::checkpoint::Checkpoint;
+use super::climbing::ladder_of;
 use super::command::HandTurn;
 use super::driver::{Driver, Start};
 use super::handle::{RunHandle, wired};
 use super::outcome::Outcome;
-use super::request::Request;
+use super::request::{Ending, Request};
 use asperity_engine::observe::Began;
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{SimError, Simulation, StepError};
@@ -57,13 +58,26 @@ impl Session {
             n_events_played: checkpoint.n_events_played,
             n_turned_by_hand: checkpoint.n_turned_by_hand,
             n_unconverged: checkpoint.n_unconverged,
+            ladder: ladder_of(&request.scene, &plan).filter(|_| checkpoint.climb.nodes != 0),
+            climb: checkpoint.climb.clone(),
             ..Start::default()
         };
+        let mesh = start.ladder.as_ref().and_then(|ladder| {
+            let nodes = checkpoint.climb.nodes;
+            let mut meshes = ladder.meshes().iter();
+            meshes.find(|mesh| mesh.plan.domain.nodes == nodes).cloned()
+        });
         Self::spawn(request, start, move |scene| {
             checkpoint
                 .fits(scene)
                 .map_err(|error| SimError::State(error.to_string()))?;
-            let mut sim = Simulation::new(scene, plan, threads)?;
+            let mut sim = match &mesh {
+                Some(mesh) => Simulation::new(&mesh.scene, mesh.plan.clone(), threads)?,
+                None => Simulation::new(scene, plan, threads)?,
+            };
+            if !checkpoint.is_on_top(scene) {
+                sim.hand_on();
+            }
             sim.restore(&checkpoint.sim)?;
             sim.count_from(checkpoint.stats)?;
             Ok(sim)
@@ -95,8 +109,10 @@ impl Session {
     pub fn repeat(request: Request, turns: Vec<HandTurn>) -> Result<Self, RunError> {
         let threads = request.threads;
         let plan = request.plan.clone();
+        let is_plain = turns.is_empty() && request.ending == Ending::Passages;
         let start = Start {
             turns,
+            ladder: ladder_of(&request.scene, &plan).filter(|_| is_plain),
             ..Start::default()
         };
         Self::spawn(request, start, move |scene| {

@@ -139,7 +139,8 @@ fn takes_whole_numbers(kind: keys::Kind) -> bool {
         | keys::Kind::Number(..)
         | keys::Kind::EitherSign(..)
         | keys::Kind::NumberOrInf(..)
-        | keys::Kind::Choice(_) => false,
+        | keys::Kind::Choice(_)
+        | keys::Kind::Switch => false,
     }
 }
 

@@ -22,7 +22,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::case::{CaseRecord, Neighbour};
 use super::error::SweepError;
 use super::spec::Sweep;
-use crate::run::Checkpoint;
+use crate::run::{Checkpoint, Climb};
 use asperity_engine::files::{fnv, publish, sync_file};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{State, Stats};
@@ -177,6 +177,7 @@ impl Folder {
         end: &Neighbour,
     ) -> Result<(), SweepError> {
         let checkpoint = Checkpoint {
+            climb: Climb::default(),
             program: crate::program::PROGRAM.to_owned(),
             scene: end.scene.to_toml(),
             n_events_played: 0,

@@ -40,6 +40,32 @@ impl LifeStage {
         self.reference_cycles = blank.reference_cycles;
     }
 
+    /// Begins with base and reference of a stage of the same scene on a coarser mesh.
+    pub(in crate::sim) fn take_references(&mut self, other: &Self) {
+        for (own, other) in self.variants.iter_mut().zip(&other.variants) {
+            own.take_references(other);
+        }
+        (self.reference_size, self.reference_at) = (other.reference_size, other.reference_at);
+        self.reference_cycles = other.reference_cycles;
+    }
+
+    /// Takes the smooth contact of `size` times the scene's, which was the reference on a coarser mesh, for the reference
+    /// of now; the base moves with it.
+    pub(in crate::sim) fn raise_references(
+        &mut self,
+        stress: &mut StressStage,
+        size: f64,
+        at: LoadAndSpeed,
+    ) {
+        let before = self.clone();
+        self.reference_size = size;
+        self.measure_reference(stress);
+        for (own, before) in self.variants.iter_mut().zip(&before.variants) {
+            own.raise_base(before);
+        }
+        self.reference_at = at;
+    }
+
     fn measure_reference(&mut self, stress: &mut StressStage) {
         self.clear();
         self.each(stress, |variant, stress, shared| {

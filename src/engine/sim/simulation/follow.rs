@@ -51,8 +51,8 @@ pub(super) fn follow(
     neighbour: &State,
 ) -> Result<(), SimError> {
     take_over(plan, state, work, neighbour)?;
-    let dt = plan.stepping.usual() * plan.decided.domain.dx_a();
-    let goal = cold_distances(plan, state, work, dt);
+    let dt = plan.usual_dt();
+    let goal = cold_distances(plan, &state.targets, develops(state, work), dt);
     for knob in FREE {
         let targets = state.targets.get(knob).target;
         state.drive.jump(knob, neighbour.drive.get(knob).now);
@@ -61,13 +61,7 @@ pub(super) fn follow(
     for knob in [Knob::ForceN, Knob::ForceNPerM, Knob::EntrainmentMS] {
         state.drive.jump(knob, state.targets.get(knob).target);
     }
-    let walk = FREE
-        .map(|knob| {
-            let setting = state.drive.get(knob);
-            (setting.target - setting.now).abs() / setting.rate
-        })
-        .into_iter()
-        .fold(0.0, f64::max);
+    let walk = state.drive.walk_left();
     // How far the surfaces must be led depends on how long settling takes, and the other way round: two
     // rounds find a length that serves.
     let mut settling = SettlingSteps::new(walk, dt);
@@ -81,11 +75,8 @@ pub(super) fn follow(
     let lead = lead_after(state, work, &settling, goal);
     state.motion.lead(lead, over);
     state.motion.disturb(settling.length());
-    state.phase = Phase::Settle {
-        coarse: settling.coarse,
-        fine: settling.fine,
-    };
-    state.start_up_steps = (0, settling.coarse + settling.fine);
+    state.phase = settling.phase();
+    state.start_up_steps = (0, settling.steps());
     state.watched = state.motion.travelled;
     see_again(plan, state, work);
     Ok(())
@@ -119,15 +110,20 @@ fn missing(work: &Work, body: usize, distance: f64) -> f64 {
 }
 
 /// Where a cold start would have both surfaces when the passage begins, in a.
-fn cold_distances(plan: &SimPlan, state: &State, work: &Work, dt: f64) -> [f64; 2] {
+pub(super) fn cold_distances(
+    plan: &SimPlan,
+    targets: &Drive,
+    develops: bool,
+    dt: f64,
+) -> [f64; 2] {
     let smooth = plan.smooth_distance();
     let steps = (DEVELOP / dt).ceil() as u64;
-    let mut drive = state.targets.clone();
+    let mut drive = targets.clone();
     for knob in FREE {
         drive.jump(knob, 0.0);
-        drive.aim(knob, state.targets.get(knob).target);
+        drive.aim(knob, targets.get(knob).target);
     }
-    let steps = if develops(state, work) { steps } else { 0 };
+    let steps = if develops { steps } else { 0 };
     distances(&drive, [smooth; 2], (steps, dt)).1
 }
 
@@ -161,7 +157,7 @@ fn take_over(
 }
 
 /// Steps of settling.
-struct SettlingSteps {
+pub(super) struct SettlingSteps {
     coarse: u64,
     fine: u64,
     dt: f64,
@@ -169,7 +165,7 @@ struct SettlingSteps {
 
 impl SettlingSteps {
     /// After a walk of so much.
-    fn new(walk: f64, dt: f64) -> Self {
+    pub(super) fn new(walk: f64, dt: f64) -> Self {
         Self {
             coarse: ((walk + FLUSH - FINE) / (COARSE * dt)).ceil() as u64,
             fine: (FINE / dt).ceil() as u64,
@@ -178,8 +174,19 @@ impl SettlingSteps {
     }
 
     /// In a.
-    fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         (COARSE * self.coarse as f64 + self.fine as f64) * self.dt
+    }
+
+    pub(super) fn steps(&self) -> u64 {
+        self.coarse + self.fine
+    }
+
+    pub(super) fn phase(&self) -> Phase {
+        Phase::Settle {
+            coarse: self.coarse,
+            fine: self.fine,
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 //! Steps of the smooth contact beside the run ([`Smooth`]), and what becomes of it.
 
 use super::present::{conditions, has_reference_of_now};
+use super::rung::{measure_smooth, smooth_drive};
+use super::start_up::mesh_errors;
 use super::watching::slice_again;
 use crate::sim::motion::Travel;
 use crate::sim::pace::Stepping;
@@ -8,7 +10,8 @@ use crate::sim::sim_plan::SimPlan;
 use crate::sim::smooth::{LoadAndSpeed, Smooth};
 use crate::sim::stepping::Mover;
 use crate::sim::work::Work;
-use crate::sim::{Knob, State, Stats, StepError};
+use crate::sim::state::Phase;
+use crate::sim::{State, Stats, StepError};
 
 /// One step of the smooth contact, where the reference is another one's.
 ///
@@ -29,6 +32,9 @@ pub(super) fn step_smooth(
         if smooth.nodes == plan.decided.domain.nodes {
             work.smooth = None;
             take_smooth(plan, state, work, stats, &smooth);
+            if plan.hands_on {
+                state.reference = Some(smooth.contact);
+            }
             return Ok(());
         }
         refine_smooth(plan, &mut smooth);
@@ -46,9 +52,7 @@ fn begin_smooth(plan: &SimPlan, state: &State, work: &mut Work) -> Smooth {
     let size = plan.scaling.size_ratio(at.load / plan.decided.force_n);
     let film = plan.film_at(at);
     let central = film.map_or(0.0, |film| plan.scaling.h_from_m(film.central_m));
-    let mut drive = state.targets.smooth();
-    drive.jump(plan.scaling.load_knob(), at.load);
-    drive.jump(Knob::EntrainmentMS, at.speed_m_s);
+    let drive = smooth_drive(plan, state, at);
     let mut smooth = work.take_smooth(plan, nodes);
     let hertz = || smooth.solver.hertz_of_size(&plan.shape, size, central);
     let contact = work.pool.install(hertz);
@@ -104,7 +108,8 @@ fn advance_smooth(
     attempted.fatal(t_s).map_or(Ok(()), Err)
 }
 
-/// Its integrals become the reference of now; the slices below the run's own contact are made again.
+/// Its integrals become the reference of now, of a run that has climbed to this mesh its own; the slices below the run's
+/// own contact are made again.
 fn take_smooth(
     plan: &SimPlan,
     state: &mut State,
@@ -115,10 +120,19 @@ fn take_smooth(
     let size = plan
         .scaling
         .size_ratio(smooth.at.load / plan.decided.force_n);
+    let climbs = matches!(state.phase, Phase::Settle { .. });
+    if climbs {
+        let measured = measure_smooth(plan, smooth.nodes, &smooth.contact, smooth.at);
+        state.mesh_errors = mesh_errors(plan, state.coarser, &measured);
+    }
     if let (Some(stress), Some(life)) = (&mut work.stress, &mut state.life) {
         work.pool.install(|| {
             stress.slice(&smooth.contact.pressure, &[], 0.0);
-            life.move_reference(stress, size, smooth.at);
+            if climbs {
+                life.raise_references(stress, size, smooth.at);
+            } else {
+                life.move_reference(stress, size, smooth.at);
+            }
             stats.stress_volumes += u64::from(life.integrates());
             if let Some(counting) = &mut state.counting {
                 counting.set_reference(stress, size);

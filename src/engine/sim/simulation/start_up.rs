@@ -1,6 +1,7 @@
 //! From Hertz to the developed rough contact.
 
 use super::watching::measure_state;
+use crate::sim::measure::Measured;
 use crate::sim::sim_plan::{DEVELOP, SimPlan};
 use crate::sim::state::Phase;
 use crate::sim::work::Work;
@@ -13,6 +14,19 @@ fn off(coarser: f64, finer: f64) -> f64 {
     } else {
         1.0
     }
+}
+
+/// Errors by the mesh, from the smooth contact on two grids.
+pub(super) fn mesh_errors(
+    plan: &SimPlan,
+    coarser: Option<Measured>,
+    finer: &Measured,
+) -> Option<MeshErrors> {
+    coarser.map(|coarser| MeshErrors {
+        h_central: off(coarser.h_central, finer.h_central),
+        h_min: off(coarser.h_min, finer.h_min),
+        p_max: off(coarser.p_max, finer.p_max) + plan.stress_error([1.0; 2]),
+    })
 }
 
 /// The next finer grid, or the reference and the development.
@@ -31,11 +45,10 @@ pub(super) fn refine_or_develop(plan: &SimPlan, state: &mut State, work: &mut Wo
         return;
     }
     let measured = measure_state(plan, state, work);
-    state.mesh_errors = state.coarser.map(|coarser| MeshErrors {
-        h_central: off(coarser.h_central, measured.h_central),
-        h_min: off(coarser.h_min, measured.h_min),
-        p_max: off(coarser.p_max, measured.p_max) + plan.stress_error([1.0; 2]),
-    });
+    state.mesh_errors = mesh_errors(plan, state.coarser, &measured);
+    if plan.hands_on {
+        state.reference = Some(state.contact.clone());
+    }
     let base = plan.base();
     if let (Some(stress), Some(life)) = (&mut work.stress, &mut state.life) {
         let (p, q) = (&state.contact.pressure, &work.traction);

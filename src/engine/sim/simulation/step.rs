@@ -26,13 +26,20 @@ pub(super) fn step(
     loop {
         match state.phase {
             Phase::Smooth { left: 0 } => refine_or_develop(plan, state, work),
-            Phase::Settle { coarse: 0, fine: 0 } => state.phase = Phase::Develop { left: 0 },
             Phase::Develop { left: 0 } => begin_passage(plan, state),
             Phase::Smooth { left } => {
                 advance(plan, state, work, stats)?;
                 state.phase = Phase::Smooth { left: left - 1 };
                 break;
             }
+            // On a finer mesh the rough contact waits for the smooth one.
+            Phase::Settle { .. } if state.smooth.is_some() => {
+                step_smooth(plan, state, work, stats)?;
+                if state.smooth.is_some() {
+                    break;
+                }
+            }
+            Phase::Settle { coarse: 0, fine: 0 } => state.phase = Phase::Develop { left: 0 },
             Phase::Settle { coarse, fine } => {
                 advance(plan, state, work, stats)?;
                 state.phase = Phase::Settle {

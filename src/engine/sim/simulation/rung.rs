@@ -1,0 +1,146 @@
+//! A run that goes on from a coarser mesh of the same scene instead of from Hertz: one rung of a ladder of meshes.
+//!
+//! ```text
+//! contact     pressure, film and masses of the coarser run, interpolated; H0 and the places of both bodies as they are
+//! skins       what has flowed, at the new columns
+//! reference   the smooth contact, interpolated and made steady on this mesh: first of all, while the rough one waits
+//! settle      1.6 a at U ([`super::follow`]): what the interpolation disturbed leaves the contact, then the passage begins
+//! ```
+//! Bilinear interpolation leaves load and mass, sums by the trapezoidal rule, as they are. Averages, counts and the search
+//! for an orbit begin anew. The base of the lives moves with the reference: what a load costs is a ratio of two smooth
+//! contacts, and both are of one mesh.
+//!
+//! The passage of the last rung begins with both surfaces where a run on that mesh alone would have them: the first rung is
+//! sent ahead by what the settling of the others takes ([`head_start`]).
+
+use super::follow::{SettlingSteps, cold_distances};
+use super::present::conditions;
+use super::watching::{publish, see_again};
+use crate::plan::Plan;
+use crate::scene::{Scene, Surface};
+use crate::sim::measure::{Fields, Measured, RowSums, measure};
+use crate::sim::motion::Travel;
+use crate::sim::sim_plan::SimPlan;
+use crate::sim::smooth::{LoadAndSpeed, Smooth};
+use crate::sim::state::{Phase, drive_of};
+use crate::sim::stepping::Attempted;
+use crate::sim::work::Work;
+use crate::sim::{Knob, SimError, State};
+use crate::solve::march::ContactState;
+
+/// Starts from `lower`, a run of the same scene on half the intervals.
+///
+/// # Errors
+/// [`SimError::State`] when it is none, or when its passage has not begun; the simulation is as it was.
+pub(super) fn climb(
+    plan: &SimPlan,
+    state: &mut State,
+    work: &mut Work,
+    lower: &State,
+) -> Result<(), SimError> {
+    let reference = fitting(plan, work, lower)?;
+    let (coarse, fine) = (plan.grid(lower.nodes), plan.finest());
+    work.solve_on(plan, fine.nx);
+    state.nodes = fine.nx;
+    state.contact = lower.contact.refined(&coarse, &fine);
+    state.drive.clone_from(&lower.drive);
+    state.targets.clone_from(&lower.targets);
+    state.motion = Travel::new();
+    state.motion.travelled = lower.motion.travelled;
+    if let (Some(own), Some(other)) = (&mut state.yielded, &lower.yielded) {
+        own.take_over(&fine, other, &coarse);
+    }
+    let at = (lower.life.as_ref()).map_or_else(|| conditions(plan, state), |life| life.reference_at);
+    if let (Some(own), Some(other)) = (&mut state.life, &lower.life) {
+        own.take_references(other);
+    }
+    if let (Some(own), Some(other)) = (&mut state.counting, &lower.counting) {
+        own.take_reference(other);
+    }
+    state.coarser = Some(measure_smooth(plan, lower.nodes, reference, at));
+    state.smooth = Some(Smooth {
+        nodes: fine.nx,
+        contact: reference.refined(&coarse, &fine),
+        drive: smooth_drive(plan, state, at),
+        motion: Travel::new(),
+        at,
+        left: plan.smooth_steps(fine.nx, plan.decided.has_flow()),
+    });
+    let settling = SettlingSteps::new(state.drive.walk_left(), plan.usual_dt());
+    state.motion.disturb(settling.length());
+    state.phase = settling.phase();
+    let smooth_steps = state.smooth.as_ref().map_or(0, |smooth| smooth.left);
+    state.start_up_steps = (0, smooth_steps + settling.steps());
+    state.watched = state.motion.travelled;
+    let measured = see_again(plan, state, work);
+    publish(plan, state, work, &Attempted::held(&lower.metrics, 0.0), &measured);
+    Ok(())
+}
+
+/// The smooth contact of a run that may be gone on from.
+fn fitting<'a>(
+    plan: &SimPlan,
+    work: &Work,
+    lower: &'a State,
+) -> Result<&'a ContactState, SimError> {
+    let refuse = |what: &str| Err(SimError::State(what.to_owned()));
+    if 2 * (lower.nodes - 1) + 1 != plan.decided.domain.nodes {
+        return refuse("its mesh has not half the intervals of this one");
+    }
+    let Some(reference) = lower.reference.as_ref().filter(|_| lower.phase == Phase::Passage) else {
+        return refuse("its passage has not begun");
+    };
+    let empty = ContactState::empty(plan.grid(lower.nodes).len(), work.solver.is_unlike());
+    for contact in [&lower.contact, reference] {
+        use crate::saved::Saved as _;
+        if empty.check(contact).is_err() {
+            return refuse("its contact is not of this scene");
+        }
+    }
+    Ok(reference)
+}
+
+/// Knobs of the smooth contact at such a load and speed.
+pub(super) fn smooth_drive(plan: &SimPlan, state: &State, at: LoadAndSpeed) -> crate::sim::drive::Drive {
+    let mut drive = state.targets.smooth();
+    drive.jump(plan.scaling.load_knob(), at.load);
+    drive.jump(Knob::EntrainmentMS, at.speed_m_s);
+    drive
+}
+
+/// Scalars of a smooth contact on the grid of so many nodes per side.
+pub(super) fn measure_smooth(plan: &SimPlan, nodes: usize, contact: &ContactState, at: LoadAndSpeed) -> Measured {
+    let grid = plan.grid(nodes);
+    let size = plan.scaling.size_ratio(at.load / plan.decided.force_n);
+    let fields = Fields {
+        grid: &grid,
+        law: &plan.law,
+        p: &contact.pressure,
+        h: &contact.film,
+        ellipse: (size, size * plan.scaling.b_over_a),
+    };
+    let (mut traction, mut rows) = (vec![0.0; grid.len()], vec![RowSums::default(); grid.ny]);
+    measure(&fields, &mut traction, &mut rows)
+}
+
+/// Distances, in a, by which the surfaces of the first of these runs, each on twice the intervals of the one before, must
+/// be ahead for the passage of the last to begin where it does in a run on its mesh alone.
+pub fn head_start(rungs: &[(&Scene, &Plan)]) -> [f64; 2] {
+    let plans = rungs.iter().map(|(scene, plan)| SimPlan::new(scene, (*plan).clone()));
+    let plans: Vec<SimPlan> = plans.collect();
+    let (Some(first), Some(last)) = (plans.first(), plans.last()) else {
+        return [0.0; 2];
+    };
+    let launch = |plan: &SimPlan| {
+        let develops = plan.scene.motion.slide_roll != 0.0
+            || (plan.scene.surfaces().iter()).any(|surface| !matches!(surface, Surface::Smooth {}));
+        cold_distances(plan, &drive_of(&plan.scene), develops, plan.usual_dt())
+    };
+    let (own, goal) = (launch(first), launch(last));
+    let s = last.scene.motion.slide_roll;
+    let settling: f64 = (plans.iter().skip(1))
+        .map(|plan| SettlingSteps::new(0.0, plan.usual_dt()).length())
+        .sum();
+    let shares = [1.0 - 0.5 * s, 1.0 + 0.5 * s];
+    [0, 1].map(|body: usize| goal[body] - own[body] - settling * shares[body])
+}
