@@ -220,10 +220,7 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
         status: Box::new(move || run_status(&status.status(), recorded.as_ref())),
         settled: Box::new(move || settled.settled()),
         start_sweep: Some(Box::new(move |order| {
-            let ground = Ground {
-                scene: scene.clone(),
-                state: ground.settled()?.state.clone()?,
-            };
+            let ground = Ground::of(&scene, &*ground.settled()?)?;
             Some(Background::start(ground, order, threads))
         })),
         interrupt,
@@ -272,6 +269,8 @@ fn run_status(status: &Status, recorded: Option<&Recording>) -> RunStatus {
             None => Health::Running,
         },
         recorder,
+        climbs: status.climbs,
+        finer: status.finer,
     }
 }
 

@@ -88,7 +88,10 @@ impl Drive {
 
     /// Time (a/U) until all knobs are where they go.
     pub(super) fn walk_left(&self) -> f64 {
-        let settings = self.settings.iter().filter(|setting| setting.now != setting.target);
+        let settings = self
+            .settings
+            .iter()
+            .filter(|setting| setting.now != setting.target);
         settings
             .map(|setting| (setting.target - setting.now).abs() / setting.rate)
             .fold(0.0, f64::max)

@@ -31,8 +31,8 @@ use crate::plan::{Plan, TimeDependence};
 use crate::saved::Saved as _;
 use crate::scene::Scene;
 use crate::sim::pace::Stepping;
-use state_check::{check, check_course, check_stats};
 pub use rung::head_start;
+use state_check::{check, check_course, check_stats};
 use step::{forget_passage, step};
 use view::View;
 use watching::{publish, see_again};
@@ -155,6 +155,11 @@ impl Simulation {
             Stepping::Adaptive { .. } => steps * self.state.distance / self.plan.decided.length_a,
         };
         ((done as f64 + passed) / (all as f64 + steps).max(1.0)).min(1.0)
+    }
+
+    /// Lengths of 4 a at U since the start-up.
+    pub fn passages(&self) -> f64 {
+        self.state.passages(self.plan.decided.passage_a)
     }
 
     /// Time steps since the start-up.

@@ -170,6 +170,15 @@ impl State {
         self.step
     }
 
+    /// Distance since the start-up over `passage` (in a).
+    pub(super) fn passages(&self, passage: f64) -> f64 {
+        if self.step > 0 {
+            self.distance / passage
+        } else {
+            0.0
+        }
+    }
+
     /// Part of the run that the last step belongs to.
     pub(super) fn stage(&self) -> Stage {
         if self.phase == Phase::Passage && self.step > 0 {

@@ -116,7 +116,9 @@ impl Variant {
     /// The base is what it was on the coarser mesh, times what the reference there has become on this one.
     pub(super) fn raise_base(&mut self, coarser: &Self) {
         let pairs = coarser.base.iter().zip(&coarser.reference);
-        for ((own, reference), (base, before)) in self.base.iter_mut().zip(&self.reference).zip(pairs) {
+        for ((own, reference), (base, before)) in
+            self.base.iter_mut().zip(&self.reference).zip(pairs)
+        {
             // Below a fatigue limit all are −∞.
             *own = if base == before {
                 *reference

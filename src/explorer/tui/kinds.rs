@@ -235,6 +235,8 @@ pub enum RunPace {
 pub enum Leading {
     /// The simulation's: it has settled where the knobs are.
     Simulated,
+    /// The simulation's, on its way there.
+    Settling,
     /// The last one that was simulated, brought to where the knobs are by the formula.
     Scaled,
     /// The formula's alone: nothing has settled yet.
@@ -246,6 +248,7 @@ impl Leading {
     pub fn name(self) -> &'static str {
         match self {
             Self::Simulated => "simulated",
+            Self::Settling => "settling",
             Self::Scaled => "scaled",
             Self::Formula => "formula",
         }

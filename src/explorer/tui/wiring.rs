@@ -55,12 +55,16 @@ pub enum RecorderActivity {
 }
 
 /// What the screen asks the run about before each drawing.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct RunStatus {
     /// How the run is.
     pub health: Health,
     /// How the recording is; `None`: there is none.
     pub recorder: Option<RecorderState>,
+    /// Whether the run climbs several meshes.
+    pub climbs: bool,
+    /// The finer mesh that is under way, nodes per side, and how much of it is done, 0 to 1; `None`: the last is reached.
+    pub finer: Option<(usize, f64)>,
 }
 
 /// Something that a key does outside of the screen; the answer is one line for the status bar.

@@ -236,7 +236,7 @@ pub(super) fn measured(link: &PageLink, steps: u64) -> Result<String, String> {
     let nodes = link.nodes.unwrap_or(NODES);
     let (mut run, _) = start(&link.scene, &link.name, nodes, Ending::Steps(steps))?;
     while matches!(run.session.turn(), LoopTurn::Stepped) {}
-    let counters = run.session.sim().stats();
+    let counters = run.session.stats();
     let counters = serde_json::to_string(counters).map_err(|e| e.to_string())?;
     Ok(format!("{}{counters}", run.rows.csv()))
 }
@@ -274,19 +274,18 @@ fn wiring(handle: &RunHandle, setup: Setup, beside: &PageSweep, files: &Files) -
         setup,
         frames: handle.latest(),
         commands: handle.commands(),
-        status: Box::new(move || RunStatus {
-            health: status
-                .status()
-                .failure
-                .map_or(Health::Running, Health::Failed),
-            recorder: None,
+        status: Box::new(move || {
+            let status = status.status();
+            RunStatus {
+                health: status.failure.map_or(Health::Running, Health::Failed),
+                recorder: None,
+                climbs: status.climbs,
+                finer: status.finer,
+            }
         }),
         settled: Box::new(move || settled.settled()),
         start_sweep: Some(Box::new(move |order| {
-            let ground = Ground {
-                scene: Arc::clone(&scene),
-                state: ground.settled()?.state.clone()?,
-            };
+            let ground = Ground::of(&scene, &*ground.settled()?)?;
             let (sweep, worker) = Background::cooperative(ground, order);
             place.replace(worker);
             Some(sweep)

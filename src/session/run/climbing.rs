@@ -1,13 +1,22 @@
 //! The loop on a ladder of meshes: one simulation after the other, each going on from where the one below was launched.
+//!
+//! ```text
+//! Passages   each mesh makes the passages of the scene                      up when they are done
+//! live       each mesh goes on until its life has settled                   up; a knob that is turned: down to the first
+//! ```
+//! The last mesh does the same in both, so a live run whose knobs nobody turns gives the frames of a run by itself. After a
+//! turn each mesh goes on from where the one below has settled. The first mesh of a live run is kept: it answers within a
+//! second.
 
 use std::sync::Arc;
 
-use super::driver::{Driver, script_of};
+use super::driver::{Driver, Leg, script_of};
 use super::errors::set_errors;
 use super::ladder::{Ladder, Mesh};
 use super::outcome::End;
+use super::request::Ending;
 use asperity_engine::scene::{ErrorSource, Scene};
-use asperity_engine::sim::{Rung, SimError, Simulation, Stage, Stats, Summary};
+use asperity_engine::sim::{LifeEstimate, Rung, SimError, Simulation, Stage, Stats, Summary};
 
 impl Driver {
     /// Whether the run is on the scene's own mesh.
@@ -22,38 +31,96 @@ impl Driver {
         ladder: &Ladder,
         make: impl FnOnce(&Scene) -> Result<Simulation, SimError>,
     ) -> (End, Option<Simulation>) {
-        let mut saved = (self.climb.nodes != 0).then_some(make);
-        let mut stats = Stats::default();
-        let (meshes, from) = (ladder.meshes().iter(), self.climb.nodes);
-        for mesh in meshes.skip_while(|mesh| mesh.plan.domain.nodes < from) {
-            let made = match saved.take() {
-                Some(make) => make(&self.context.scene),
-                None => self.begin_mesh(ladder, mesh, stats),
-            };
-            let mut sim = match made {
+        let made = if self.climb.nodes == 0 {
+            self.first_mesh(ladder)
+        } else {
+            make(&self.context.scene)
+        };
+        let mut sim = match made {
+            Ok(sim) => sim,
+            Err(error) => return (End::NotStarted(error), None),
+        };
+        loop {
+            let leg = sim.inside(|sim| self.drive(sim));
+            sim = match self.change(ladder, sim, leg) {
                 Ok(sim) => sim,
-                Err(error) => return (End::NotStarted(error), None),
+                Err(ended) => return ended,
             };
-            let mut end = sim.inside(|sim| self.drive(sim));
-            if matches!(end, End::Stalled(_)) && self.climb.below.is_some() && !has_begun(&sim) {
-                // The start-up of the mesh alone may find what the way from the coarser one did not.
-                (self.climb.launch, self.climb.below) = (None, None);
-                let cold = self.begin_mesh(ladder, mesh, *sim.stats());
-                if let Ok(cold) = cold {
-                    sim = cold;
-                    end = sim.inside(|sim| self.drive(sim));
-                }
-            }
-            stats = *sim.stats();
-            match end {
-                End::Done if !self.is_on_top() => self.finish_mesh(&sim, mesh),
-                End::Stalled(_) if !self.is_on_top() => {
-                    (self.climb.launch, self.climb.below) = (None, None);
-                }
-                end => return (end, Some(sim)),
-            }
         }
-        (End::Done, None)
+    }
+
+    /// The simulation that goes on after a mesh.
+    ///
+    /// # Errors
+    /// When none does: how the run ended, and where.
+    pub(super) fn change(
+        &mut self,
+        ladder: &Ladder,
+        sim: Simulation,
+        leg: Leg,
+    ) -> Result<Simulation, (End, Option<Simulation>)> {
+        let next = match leg {
+            Leg::Up => self.up(ladder, sim),
+            Leg::Down => self.down(ladder, sim),
+            Leg::Ended(End::Stalled(error)) => match self.not_by_this_way(ladder, &sim) {
+                Some(other) => other,
+                None => return Err((End::Stalled(error), Some(sim))),
+            },
+            Leg::Ended(end) => return Err((end, Some(sim))),
+        };
+        next.map_err(|error| (End::NotStarted(error), None))
+    }
+
+    pub(super) fn first_mesh(&mut self, ladder: &Ladder) -> Result<Simulation, SimError> {
+        self.begin_mesh(ladder, &ladder.meshes()[0], Stats::default())
+    }
+
+    /// A mesh stalled: its own start-up where it was climbed to, else that of the next; `None`: nothing is left to try.
+    fn not_by_this_way(
+        &mut self,
+        ladder: &Ladder,
+        sim: &Simulation,
+    ) -> Option<Result<Simulation, SimError>> {
+        let (mesh, finer) = ladder.mesh(self.climb.nodes)?;
+        // The start-up of the mesh alone may find what the way from the coarser one did not.
+        let climbed = self.climb.below.take().is_some() && !has_begun(sim);
+        let mesh = if climbed { mesh } else { finer? };
+        self.climb.launch = None;
+        Some(self.begin_mesh(ladder, mesh, *sim.stats()))
+    }
+
+    /// The next finer mesh goes on.
+    fn up(&mut self, ladder: &Ladder, sim: Simulation) -> Result<Simulation, SimError> {
+        let nodes = self.climb.nodes;
+        let Some((mesh, Some(finer))) = ladder.mesh(nodes) else {
+            return Ok(sim);
+        };
+        self.finish_mesh(&sim, mesh);
+        if self.climb.launch.is_none() && has_begun(&sim) {
+            self.climb.launch = Some(sim.save());
+        }
+        let next = self.begin_mesh(ladder, finer, *sim.stats())?;
+        let is_first = nodes == ladder.meshes()[0].plan.domain.nodes;
+        if is_first && self.ending != Ending::Passages {
+            self.ground = Some(sim);
+        }
+        Ok(next)
+    }
+
+    /// The first mesh goes on, with what was turned.
+    fn down(&mut self, ladder: &Ladder, sim: Simulation) -> Result<Simulation, SimError> {
+        self.leave_top(&sim);
+        let stats = *sim.stats();
+        let mut ground = self.ground.take().unwrap_or(sim);
+        ground.count_from(stats)?;
+        self.climb.nodes = ladder.meshes()[0].plan.domain.nodes;
+        (self.climb.launch, self.climb.below) = (None, None);
+        self.climb.rungs.clear();
+        self.publish_rungs();
+        for command in std::mem::take(&mut self.pending) {
+            self.carry_out(&mut ground, command);
+        }
+        Ok(ground)
     }
 
     fn begin_mesh(
@@ -63,7 +130,10 @@ impl Driver {
         stats: Stats,
     ) -> Result<Simulation, SimError> {
         self.climb.nodes = mesh.plan.domain.nodes;
-        self.restart_script(script_of(&mesh.scene, 0));
+        if self.ending == Ending::Passages {
+            self.restart_script(script_of(&mesh.scene, 0));
+        }
+        self.begin_gathering();
         let lower = self.climb.launch.take();
         let mut sim = ladder.simulation(mesh, lower.as_ref(), self.threads)?;
         sim.count_from(stats)?;
@@ -72,7 +142,7 @@ impl Driver {
 
     /// Keeps where the passage began, on a mesh that is not the last.
     pub(super) fn keep_launch(&mut self, sim: &Simulation) {
-        if self.climb.launch.is_none() && !self.is_on_top() && has_begun(sim) {
+        if sim.passage_steps() == 1 && has_begun(sim) && !self.is_on_top() {
             self.climb.launch = Some(sim.save());
         }
     }
@@ -90,6 +160,13 @@ impl Driver {
         if let Some(below) = self.climb.below.as_ref().filter(|_| is_asked) {
             set_errors(summary, below, &mesh.plan);
         }
+    }
+
+    /// Life on the mesh below, which the band of this one's is drawn from.
+    pub(super) fn life_below(&self) -> Option<f64> {
+        let is_asked = self.context.scene.numerics.error_estimate == ErrorSource::Companion;
+        let below = self.climb.below.as_ref().filter(|_| is_asked)?;
+        below.life_relative
     }
 
     fn push_rung(&mut self, summary: &Summary) {
@@ -123,8 +200,20 @@ fn has_begun(sim: &Simulation) -> bool {
     sim.stage() == Stage::Passage
 }
 
+/// The band of a life: what the mesh below is apart from it.
+pub(super) fn widen(life: &mut LifeEstimate, below: f64) {
+    let apart = (life.life_relative / below).ln().abs();
+    if apart.is_finite() {
+        life.life_relative_low = life.life_relative * (-apart).exp();
+        life.life_relative_high = life.life_relative * apart.exp();
+    }
+}
+
 /// The ladder of a run that goes by itself.
-pub(super) fn ladder_of(scene: &Arc<Scene>, plan: &asperity_engine::plan::Plan) -> Option<Arc<Ladder>> {
+pub(super) fn ladder_of(
+    scene: &Arc<Scene>,
+    plan: &asperity_engine::plan::Plan,
+) -> Option<Arc<Ladder>> {
     let ladder = Ladder::of(scene, plan);
     ladder.climbs().then(|| Arc::new(ladder))
 }

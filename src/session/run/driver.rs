@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::mpsc::TryRecvError;
 
 use super::checkpoint::Checkpoint;
+use super::climbing::widen;
 use super::clock::Clock;
 use super::command::{AppliedCommand, Command, HandTurn};
 use super::handle::RunLink;
@@ -12,7 +13,7 @@ use super::ladder::{Climb, Ladder};
 use super::outcome::{End, Outcome, Unconverged};
 use super::outputs::Outputs;
 use super::request::{Ending, Request};
-use super::settled::Gather;
+use super::settled::{Closing, Gather, PATIENCE};
 use crate::FramePool;
 use asperity_engine::observe::{Began, RunContext, RunEvent, RunEventKind, SetBy};
 use asperity_engine::scene::{Event, Scene};
@@ -39,7 +40,19 @@ pub enum LoopTurn {
     Stepped,
     /// Nothing: it is paused, and no command came.
     Waited,
+    /// Nothing more is to be found on this mesh: the next finer one goes on.
+    Up,
+    /// A knob was turned: the first mesh goes on.
+    Down,
     /// The run has ended.
+    Ended(End),
+}
+
+/// Where a run goes on the steps of one mesh being done.
+#[derive(Debug, Clone)]
+pub(super) enum Leg {
+    Up,
+    Down,
     Ended(End),
 }
 
@@ -50,6 +63,14 @@ pub(super) enum PausedWait {
     Allowed,
     /// It returns: its thread has other things to do.
     Never,
+}
+
+/// What outputs have been given, before the run went back to its first mesh.
+#[derive(Debug, Clone, Copy, Default)]
+struct Shown {
+    steps: u64,
+    time_s: f64,
+    passages: f64,
 }
 
 /// Makes one time step in place of [`Simulation::step`]: in tests one that fails on purpose.
@@ -80,7 +101,7 @@ pub(super) struct Driver {
     name: String,
     pub(super) context: RunContext,
     make_step: Option<MakeStep>,
-    ending: Ending,
+    pub(super) ending: Ending,
     /// Steps of the whole run; `None`: it has no end.
     steps_planned: Option<u64>,
     outputs: Outputs,
@@ -92,6 +113,14 @@ pub(super) struct Driver {
     pool: FramePool,
     /// Of live runs: one period, once the passage repeats.
     gather: Option<Gather>,
+    /// Whether it has one on this mesh.
+    has_settled: bool,
+    /// Of live runs on a finer mesh: the first one, where it was left.
+    pub(super) ground: Option<Simulation>,
+    /// What waits for the first mesh.
+    pub(super) pending: Vec<Command>,
+    /// What outputs were given on the last mesh before a knob was turned.
+    shown_before: Shown,
     pace: LoopState,
     applied: Vec<AppliedCommand>,
     unconverged: Vec<Unconverged>,
@@ -133,7 +162,11 @@ impl Driver {
             steps_made: 0,
             link,
             pool: FramePool::new(FRAMES, &Frame::default()),
-            gather: (request.ending == Ending::OnStop).then(Gather::default),
+            gather: (request.ending != Ending::Passages).then(Gather::default),
+            has_settled: false,
+            ground: None,
+            pending: Vec::new(),
+            shown_before: Shown::default(),
             pace: LoopState::Running,
             applied: Vec::new(),
             unconverged: Vec::new(),
@@ -166,7 +199,8 @@ impl Driver {
             if let Some(sim) = &sim {
                 checkpoint = Some(self.checkpoint(sim));
             }
-            if let Some(sim) = sim.filter(|_| self.is_on_top()) {
+            let is_live = self.ending == Ending::OnStop;
+            if let Some(sim) = sim.filter(|_| is_live || self.is_on_top()) {
                 steps = sim.passage_steps();
                 steps_per_s = self
                     .passage_began
@@ -220,7 +254,11 @@ impl Driver {
             Some(ladder) => self.go_up(&ladder, make),
             None => match make(&self.context.scene) {
                 Err(error) => (End::NotStarted(error), None),
-                Ok(mut sim) => (sim.inside(|sim| self.drive(sim)), Some(sim)),
+                Ok(mut sim) => match sim.inside(|sim| self.drive(sim)) {
+                    // There is no other mesh.
+                    Leg::Up | Leg::Down => (End::Done, Some(sim)),
+                    Leg::Ended(end) => (end, Some(sim)),
+                },
             },
         }
     }
@@ -238,22 +276,31 @@ impl Driver {
         })
     }
 
-    /// Steps until something ends the run.
-    pub(super) fn drive(&mut self, sim: &mut Simulation) -> End {
+    /// Steps until something ends the run, or its steps on this mesh.
+    pub(super) fn drive(&mut self, sim: &mut Simulation) -> Leg {
         if self.has_ended(sim) {
             // Taken up where all that is asked for had been done.
-            return End::Done;
+            return if self.is_on_top() {
+                Leg::Ended(End::Done)
+            } else {
+                Leg::Up
+            };
         }
         loop {
-            if let LoopTurn::Ended(end) = self.turn(sim, PausedWait::Allowed) {
-                return end;
+            match self.turn(sim, PausedWait::Allowed) {
+                LoopTurn::Stepped | LoopTurn::Waited => {}
+                LoopTurn::Up => return Leg::Up,
+                LoopTurn::Down => return Leg::Down,
+                LoopTurn::Ended(end) => return Leg::Ended(end),
             }
         }
     }
 
     /// Commands, script, one step, its frame.
     pub(super) fn turn(&mut self, sim: &mut Simulation, waiting: PausedWait) -> LoopTurn {
-        self.repeat_turns(sim);
+        if let Some(turn) = self.repeat_turns(sim) {
+            return turn;
+        }
         if let Some(turn) = self.obey(sim, waiting) {
             return turn;
         }
@@ -277,15 +324,23 @@ impl Driver {
             return LoopTurn::Ended(End::OutputFailed);
         }
         if self.has_ended(sim) {
-            return LoopTurn::Ended(End::Done);
+            return if self.is_on_top() {
+                LoopTurn::Ended(End::Done)
+            } else {
+                LoopTurn::Up
+            };
         }
         LoopTurn::Stepped
     }
 
+    /// Whether all steps are made; on a coarser mesh those that it is there for.
     fn has_ended(&self, sim: &Simulation) -> bool {
         match self.ending {
             Ending::Passages => sim.is_done(),
-            Ending::Steps(steps) => sim.passage_steps() >= steps,
+            Ending::Steps(_) | Ending::OnStop if !self.is_on_top() => {
+                self.has_settled && self.script.is_empty()
+            }
+            Ending::Steps(steps) => self.steps_shown(sim) >= steps,
             Ending::OnStop => false,
         }
     }
@@ -301,8 +356,8 @@ impl Driver {
         self.n_unconverged += 1;
         if self.unconverged.len() < Outcome::UNCONVERGED_KEPT {
             self.unconverged.push(Unconverged {
-                step: sim.passage_steps(),
-                time_s: sim.time_s(),
+                step: self.steps_shown(sim),
+                time_s: self.time_shown_s(sim),
                 unsolved: Unsolved {
                     residual,
                     residual_asked: metrics.asked[0],
@@ -320,21 +375,64 @@ impl Driver {
     fn forget_settled(&mut self) {
         if let Some(gather) = &mut self.gather {
             *gather = Gather::default();
+            self.has_settled = false;
             self.link.lock().settled = None;
         }
     }
 
+    /// Another mesh: what has settled on the last one is shown until this one has.
+    pub(super) fn begin_gathering(&mut self) {
+        self.has_settled = false;
+        if let Some(gather) = &mut self.gather {
+            *gather = Gather::default();
+        }
+    }
+
+    /// Before the first mesh goes on: the outputs' steps and times do not begin again.
+    pub(super) fn leave_top(&mut self, sim: &Simulation) {
+        if self.is_on_top() {
+            let Shown {
+                steps,
+                time_s,
+                passages,
+            } = &mut self.shown_before;
+            *steps += sim.passage_steps();
+            *time_s += sim.time_s();
+            *passages += sim.passages();
+        }
+    }
+
+    /// Steps that outputs have been given.
+    fn steps_shown(&self, sim: &Simulation) -> u64 {
+        let on_this = if self.is_on_top() {
+            sim.passage_steps()
+        } else {
+            0
+        };
+        self.shown_before.steps + on_this
+    }
+
+    /// Simulated time that outputs have been given, s.
+    fn time_shown_s(&self, sim: &Simulation) -> f64 {
+        let on_this = if self.is_on_top() { sim.time_s() } else { 0.0 };
+        self.shown_before.time_s + on_this
+    }
+
     /// Does what was done at this place in the run that is repeated.
-    fn repeat_turns(&mut self, sim: &mut Simulation) {
+    fn repeat_turns(&mut self, sim: &mut Simulation) -> Option<LoopTurn> {
         while self
             .turns
             .front()
             .is_some_and(|turn| turn.steps_made <= self.steps_made)
         {
-            if let Some(turn) = self.turns.pop_front() {
-                self.carry_out(sim, turn.command);
+            let command = self.turns.pop_front()?.command;
+            if matches!(command, Command::Set(..)) && self.ground.is_some() {
+                self.pending.push(command);
+                return Some(LoopTurn::Down);
             }
+            self.carry_out(sim, command);
         }
+        None
     }
 
     /// Takes all commands that wait; while paused, waits for them where it may. Gives what the turn came to when no step
@@ -377,13 +475,17 @@ impl Driver {
                         return None;
                     }
                 }
+                Command::Set(..) if self.ground.is_some() => {
+                    self.pending.push(command);
+                    return Some(LoopTurn::Down);
+                }
                 other => self.carry_out(sim, other),
             }
         }
     }
 
     /// What leaves the pace alone, and what a run that is repeated does again.
-    fn carry_out(&mut self, sim: &mut Simulation, command: Command) {
+    pub(super) fn carry_out(&mut self, sim: &mut Simulation, command: Command) {
         match command {
             Command::Set(knob, value) => self.set(sim, knob, value, SetBy::Hand),
             Command::Follow(follow) => {
@@ -402,8 +504,8 @@ impl Driver {
         self.applied.push(AppliedCommand {
             steps_made: self.steps_made,
             by,
-            step: sim.passage_steps(),
-            time_s: sim.time_s(),
+            step: self.steps_shown(sim),
+            time_s: self.time_shown_s(sim),
             command,
         });
     }
@@ -414,6 +516,8 @@ impl Driver {
                 self.log(sim, Command::Set(knob, value), by);
                 self.n_turned_by_hand += usize::from(by == SetBy::Hand);
                 self.forget_settled();
+                // What is gone on from is what the knob makes of it.
+                self.climb.launch = None;
                 let kind = RunEventKind::Set {
                     key: knob.key().to_owned(),
                     value,
@@ -457,27 +561,61 @@ impl Driver {
 
     /// Gives the step to the screen, and to the outputs if it belongs to the results.
     fn hand_out(&mut self, sim: &Simulation) {
-        let frame = self.pool.fill(|frame| sim.fill(frame));
-        if sim.stage() == Stage::Passage && self.is_on_top() {
+        let (on_top, before) = (self.is_on_top(), self.shown_before);
+        let below = self.life_below();
+        let frame = self.pool.fill(|frame| {
+            sim.fill(frame);
+            if let (Some(below), Some(life)) = (below, &mut frame.metrics.life) {
+                widen(life, below);
+            }
+            if on_top && frame.stage == Stage::Passage {
+                frame.step += before.steps;
+                frame.time_s += before.time_s;
+                frame.passages += before.passages;
+            }
+        });
+        if frame.stage == Stage::Passage && on_top {
             self.passage_began.get_or_insert_with(Clock::start);
             self.outputs.frame(&frame);
         }
-        if let Some(gather) = &mut self.gather
-            && let Some(settled) = gather.take(&frame, || Some(sim.save()))
-        {
-            self.link.lock().settled = Some(settled);
+        self.gather_frame(sim, &frame, on_top);
+        // The start-up of a finer mesh shows nothing that the coarser one has not shown.
+        if frame.stage == Stage::Passage || self.climb.rungs.is_empty() {
+            self.link.latest.put(frame);
         }
-        self.link.latest.put(frame);
+    }
+
+    /// Looks for a period of a live run; on a coarser mesh for one with a settled life, or the time that it has.
+    fn gather_frame(&mut self, sim: &Simulation, frame: &Arc<Frame>, on_top: bool) {
+        let Some(gather) = &mut self.gather else {
+            return;
+        };
+        let closing = if on_top {
+            Closing::Fields
+        } else {
+            Closing::Life
+        };
+        if let Some(mut settled) = gather.take(frame, closing, || Some(sim.save())) {
+            settled.is_last = on_top;
+            settled.ground = match (&self.ladder, &self.ground) {
+                (Some(ladder), Some(ground)) => ladder.ground(ground),
+                (Some(ladder), None) => ladder.ground(sim),
+                (None, _) => None,
+            };
+            self.link.lock().settled = Some(Arc::new(settled));
+            self.has_settled = true;
+        }
+        self.has_settled |= !on_top && frame.passages >= PATIENCE;
     }
 
     /// Tells the outputs; what happens on a coarser mesh happens again on the last.
     fn announce(&mut self, sim: &Simulation, kind: RunEventKind) {
-        if !self.is_on_top() {
+        if !self.is_on_top() && self.ending == Ending::Passages {
             return;
         }
         let event = RunEvent {
-            step: sim.passage_steps(),
-            time_s: sim.time_s(),
+            step: self.steps_shown(sim),
+            time_s: self.time_shown_s(sim),
             kind,
         };
         self.outputs.event(&event);
@@ -507,6 +645,9 @@ impl Driver {
         status.stage = sim.stage();
         status.progress = progress;
         status.nodes = nodes;
+        status.climbs = self.ladder.is_some();
+        let is_on_the_way = !self.climb.rungs.is_empty() && !self.has_settled;
+        status.finer = is_on_the_way.then(|| (nodes, sim.progress()));
         status.steps = if is_on_top { sim.passage_steps() } else { 0 };
         status.n_unconverged = self.n_unconverged;
         status.outputs.clear();

@@ -20,6 +20,11 @@ pub struct Status {
     pub nodes: usize,
     /// The meshes that are done, where it climbs several.
     pub rungs: Vec<Rung>,
+    /// Whether it climbs several.
+    pub climbs: bool,
+    /// The finer mesh that is under way, nodes per side, and how much of it is done, 0 to 1; `None`: on the first, or nothing
+    /// more is to be found on the last.
+    pub finer: Option<(usize, f64)>,
     /// Time steps after the start-up, on the scene's own mesh.
     pub steps: u64,
     /// Steps that did not converge.

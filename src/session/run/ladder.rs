@@ -81,6 +81,18 @@ impl Ladder {
         self.meshes.len() > 1
     }
 
+    /// The first mesh, with a run on it.
+    pub(super) fn ground(&self, sim: &Simulation) -> Option<(Arc<Scene>, State)> {
+        let mesh = self.meshes.first()?;
+        Some((Arc::clone(&mesh.scene), sim.save()))
+    }
+
+    /// The mesh of so many nodes per side, and the next finer one.
+    pub(super) fn mesh(&self, nodes: usize) -> Option<(&Mesh, Option<&Mesh>)> {
+        let at = (self.meshes.iter()).position(|mesh| mesh.plan.domain.nodes == nodes)?;
+        Some((&self.meshes[at], self.meshes.get(at + 1)))
+    }
+
     /// Nodes per side of the last.
     pub(super) fn top(&self) -> usize {
         self.meshes.last().map_or(0, |mesh| mesh.plan.domain.nodes)

@@ -10,7 +10,7 @@ use super::command::HandTurn;
 use super::driver::{Driver, Start};
 use super::handle::{RunHandle, wired};
 use super::outcome::Outcome;
-use super::request::{Ending, Request};
+use super::request::Request;
 use asperity_engine::observe::Began;
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{SimError, Simulation, StepError};
@@ -109,10 +109,9 @@ impl Session {
     pub fn repeat(request: Request, turns: Vec<HandTurn>) -> Result<Self, RunError> {
         let threads = request.threads;
         let plan = request.plan.clone();
-        let is_plain = turns.is_empty() && request.ending == Ending::Passages;
         let start = Start {
             turns,
-            ladder: ladder_of(&request.scene, &plan).filter(|_| is_plain),
+            ladder: ladder_of(&request.scene, &plan),
             ..Start::default()
         };
         Self::spawn(request, start, move |scene| {

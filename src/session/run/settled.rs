@@ -3,12 +3,13 @@
 //! ```text
 //! Repeat::repeats ──> gather frames over T ──> Settled { frames, T, state }        a knob is turned: gone
 //! ```
-//! Where no common period exists (only the means have settled) or nothing moves there is one frame only. So it is, until
+//! On the coarser meshes of a ladder a settled life is enough ([`Closing`]). Where no common period exists (only the means have settled) or nothing moves there is one frame only. So it is, until
 //! the period closes, where the life has long been settled: on a coarse mesh with few steps a crest the fields may never
 //! compare closely enough.
 
 use std::sync::Arc;
 
+use asperity_engine::scene::Scene;
 use asperity_engine::sim::{Frame, Rhythm, Stage, State};
 
 /// Memory that the frames of a period may take, bytes; longer periods keep every second, third, ... frame.
@@ -16,7 +17,7 @@ const MOST_BYTES: usize = 128 << 20;
 
 /// Passages of 4 a with a settled life after which a period that does not close is no longer waited for: twice the longest
 /// that is looked for.
-const PATIENCE: f64 = 8.0;
+pub(super) const PATIENCE: f64 = 8.0;
 
 /// What a periodic passage leaves.
 #[derive(Debug)]
@@ -27,6 +28,19 @@ pub struct Settled {
     pub period_s: f64,
     /// State of the simulation at the last frame, to start others from; `None` where no simulation made the frames.
     pub state: Option<State>,
+    /// Whether it is of the scene's own mesh: no finer one follows.
+    pub is_last: bool,
+    /// The run on its first mesh, for what has to be answered soon; `None`: there is one mesh alone.
+    pub ground: Option<(Arc<Scene>, State)>,
+}
+
+/// What a period has to bring back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Closing {
+    /// The fields, and a settled life.
+    Fields,
+    /// A settled life: coarse meshes with few steps a crest may never bring the fields back so closely.
+    Life,
 }
 
 /// Collects a period.
@@ -49,10 +63,14 @@ impl Gather {
     pub(super) fn take(
         &mut self,
         frame: &Arc<Frame>,
+        closing: Closing,
         save: impl FnOnce() -> Option<State>,
-    ) -> Option<Arc<Settled>> {
+    ) -> Option<Settled> {
         let metrics = &frame.metrics;
-        let repeat = metrics.repeat.filter(|repeat| repeat.repeats);
+        let repeat = metrics.repeat.filter(|repeat| match closing {
+            Closing::Fields => repeat.repeats,
+            Closing::Life => repeat.repeats || metrics.life.is_some(),
+        });
         let counted = metrics.life.is_none_or(|life| life.settled);
         let holds = frame.stage == Stage::Passage && metrics.converged && counted;
         if self.is_done {
@@ -90,7 +108,7 @@ impl Gather {
         frame: &Arc<Frame>,
         holds: bool,
         save: impl FnOnce() -> Option<State>,
-    ) -> Option<Arc<Settled>> {
+    ) -> Option<Settled> {
         let since = self.waits_since.unwrap_or(frame.passages);
         *self = Self {
             waits_since: holds.then_some(since),
@@ -101,25 +119,24 @@ impl Gather {
             return None;
         }
         self.gave_up = true;
-        Some(Arc::new(Settled {
+        Some(Settled {
             frames: vec![copy(frame)],
             period_s: 0.0,
             state: save(),
-        }))
+            is_last: true,
+            ground: None,
+        })
     }
 
-    fn whole(
-        &mut self,
-        frames: Vec<Arc<Frame>>,
-        period_s: f64,
-        state: Option<State>,
-    ) -> Arc<Settled> {
+    fn whole(&mut self, frames: Vec<Arc<Frame>>, period_s: f64, state: Option<State>) -> Settled {
         self.is_done = true;
-        Arc::new(Settled {
+        Settled {
             frames,
             period_s,
             state,
-        })
+            is_last: true,
+            ground: None,
+        }
     }
 }
 
@@ -168,7 +185,7 @@ mod tests {
         let mut found = Vec::new();
         for step in 1..40 {
             let frame = frame(step, step > 4, Rhythm::Orbit);
-            found.extend(gather.take(&frame, || None));
+            found.extend(gather.take(&frame, Closing::Fields, || None));
         }
         let [settled] = &found[..] else {
             panic!("{} periods", found.len());
@@ -187,7 +204,7 @@ mod tests {
             let mut frame = Frame::clone(&frame(step, step > 200, Rhythm::Orbit));
             frame.passages = 0.125 * step as f64;
             frame.metrics.converged = step != 45;
-            found.extend(gather.take(&Arc::new(frame), || None));
+            found.extend(gather.take(&Arc::new(frame), Closing::Fields, || None));
         }
         let firsts = found
             .iter()
@@ -200,9 +217,16 @@ mod tests {
         let mut gather = Gather::default();
         for step in 1..40 {
             let frame = frame(step, step % 5 != 0, Rhythm::Orbit);
-            assert!(gather.take(&frame, || None).is_none(), "{step}");
+            assert!(
+                gather.take(&frame, Closing::Fields, || None).is_none(),
+                "{step}"
+            );
         }
-        let settled = gather.take(&frame(41, true, Rhythm::Statistics), || None);
+        let settled = gather.take(
+            &frame(41, true, Rhythm::Statistics),
+            Closing::Fields,
+            || None,
+        );
         let settled = settled.expect("the means have settled");
         assert_eq!((settled.frames.len(), settled.period_s), (1, 0.0));
     }

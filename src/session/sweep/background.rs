@@ -14,6 +14,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::case::{Case, CaseEnd, CaseRecord, CaseStart, Neighbour, RunningCase, Until};
 use super::spec::ChainKeys;
+use crate::run::Settled;
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::State;
 
@@ -74,6 +75,24 @@ pub struct Ground {
 }
 
 impl Ground {
+    /// The first mesh of a run of `scene` that has settled, where it has one; else its own.
+    pub fn of(scene: &Arc<Scene>, settled: &Settled) -> Option<Self> {
+        if let Some((scene, state)) = settled.ground.clone() {
+            return Some(Self { scene, state });
+        }
+        Some(Self {
+            scene: Arc::clone(scene),
+            state: settled.state.clone()?,
+        })
+    }
+
+    /// Another scene on the mesh of this one.
+    fn carry(&self, scene: &mut Scene) {
+        scene.grid.clone_from(&self.scene.grid);
+        scene.time.tolerance = self.scene.time.tolerance;
+        scene.numerics.order = self.scene.numerics.order;
+    }
+
     /// Where a case may start from; `None` where the scene is none.
     fn start(&self) -> Option<Neighbour> {
         let case = Case::new(0, (*self.scene).clone(), CHAIN).ok()?;
@@ -144,8 +163,9 @@ impl Background {
         let CurveOrder {
             along,
             mut values,
-            scene,
+            mut scene,
         } = order;
+        ground.carry(&mut scene);
         let near = along.of(&scene);
         values.sort_by(|one, two| (one - near).abs().total_cmp(&(two - near).abs()));
         let all = values.len();

@@ -18,11 +18,7 @@ pub(super) fn fill(sim: View, frame: &mut Frame) {
     frame.time_s = sim.state.time_of_passage_s();
     frame.stage = sim.state.stage();
     frame.start_up = sim.state.start_up_progress();
-    frame.passages = if sim.state.step > 0 {
-        sim.state.distance / sim.plan.decided.passage_a
-    } else {
-        0.0
-    };
+    frame.passages = sim.state.passages(sim.plan.decided.passage_a);
     fill_shape(sim, frame);
     fill_fields(sim, frame);
     fill_slices(sim, frame);

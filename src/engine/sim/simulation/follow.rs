@@ -110,12 +110,7 @@ fn missing(work: &Work, body: usize, distance: f64) -> f64 {
 }
 
 /// Where a cold start would have both surfaces when the passage begins, in a.
-pub(super) fn cold_distances(
-    plan: &SimPlan,
-    targets: &Drive,
-    develops: bool,
-    dt: f64,
-) -> [f64; 2] {
+pub(super) fn cold_distances(plan: &SimPlan, targets: &Drive, develops: bool, dt: f64) -> [f64; 2] {
     let smooth = plan.smooth_distance();
     let steps = (DEVELOP / dt).ceil() as u64;
     let mut drive = targets.clone();

@@ -50,7 +50,8 @@ pub(super) fn climb(
     if let (Some(own), Some(other)) = (&mut state.yielded, &lower.yielded) {
         own.take_over(&fine, other, &coarse);
     }
-    let at = (lower.life.as_ref()).map_or_else(|| conditions(plan, state), |life| life.reference_at);
+    let at =
+        (lower.life.as_ref()).map_or_else(|| conditions(plan, state), |life| life.reference_at);
     if let (Some(own), Some(other)) = (&mut state.life, &lower.life) {
         own.take_references(other);
     }
@@ -73,7 +74,13 @@ pub(super) fn climb(
     state.start_up_steps = (0, smooth_steps + settling.steps());
     state.watched = state.motion.travelled;
     let measured = see_again(plan, state, work);
-    publish(plan, state, work, &Attempted::held(&lower.metrics, 0.0), &measured);
+    publish(
+        plan,
+        state,
+        work,
+        &Attempted::held(&lower.metrics, 0.0),
+        &measured,
+    );
     Ok(())
 }
 
@@ -87,7 +94,11 @@ fn fitting<'a>(
     if 2 * (lower.nodes - 1) + 1 != plan.decided.domain.nodes {
         return refuse("its mesh has not half the intervals of this one");
     }
-    let Some(reference) = lower.reference.as_ref().filter(|_| lower.phase == Phase::Passage) else {
+    let Some(reference) = lower
+        .reference
+        .as_ref()
+        .filter(|_| lower.phase == Phase::Passage)
+    else {
         return refuse("its passage has not begun");
     };
     let empty = ContactState::empty(plan.grid(lower.nodes).len(), work.solver.is_unlike());
@@ -101,7 +112,11 @@ fn fitting<'a>(
 }
 
 /// Knobs of the smooth contact at such a load and speed.
-pub(super) fn smooth_drive(plan: &SimPlan, state: &State, at: LoadAndSpeed) -> crate::sim::drive::Drive {
+pub(super) fn smooth_drive(
+    plan: &SimPlan,
+    state: &State,
+    at: LoadAndSpeed,
+) -> crate::sim::drive::Drive {
     let mut drive = state.targets.smooth();
     drive.jump(plan.scaling.load_knob(), at.load);
     drive.jump(Knob::EntrainmentMS, at.speed_m_s);
@@ -109,7 +124,12 @@ pub(super) fn smooth_drive(plan: &SimPlan, state: &State, at: LoadAndSpeed) -> c
 }
 
 /// Scalars of a smooth contact on the grid of so many nodes per side.
-pub(super) fn measure_smooth(plan: &SimPlan, nodes: usize, contact: &ContactState, at: LoadAndSpeed) -> Measured {
+pub(super) fn measure_smooth(
+    plan: &SimPlan,
+    nodes: usize,
+    contact: &ContactState,
+    at: LoadAndSpeed,
+) -> Measured {
     let grid = plan.grid(nodes);
     let size = plan.scaling.size_ratio(at.load / plan.decided.force_n);
     let fields = Fields {
@@ -126,7 +146,9 @@ pub(super) fn measure_smooth(plan: &SimPlan, nodes: usize, contact: &ContactStat
 /// Distances, in a, by which the surfaces of the first of these runs, each on twice the intervals of the one before, must
 /// be ahead for the passage of the last to begin where it does in a run on its mesh alone.
 pub fn head_start(rungs: &[(&Scene, &Plan)]) -> [f64; 2] {
-    let plans = rungs.iter().map(|(scene, plan)| SimPlan::new(scene, (*plan).clone()));
+    let plans = rungs
+        .iter()
+        .map(|(scene, plan)| SimPlan::new(scene, (*plan).clone()));
     let plans: Vec<SimPlan> = plans.collect();
     let (Some(first), Some(last)) = (plans.first(), plans.last()) else {
         return [0.0; 2];

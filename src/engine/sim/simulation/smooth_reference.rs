@@ -8,9 +8,9 @@ use crate::sim::motion::Travel;
 use crate::sim::pace::Stepping;
 use crate::sim::sim_plan::SimPlan;
 use crate::sim::smooth::{LoadAndSpeed, Smooth};
+use crate::sim::state::Phase;
 use crate::sim::stepping::Mover;
 use crate::sim::work::Work;
-use crate::sim::state::Phase;
 use crate::sim::{State, Stats, StepError};
 
 /// One step of the smooth contact, where the reference is another one's.

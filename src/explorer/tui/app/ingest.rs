@@ -40,6 +40,11 @@ impl App {
             self.run.axis_ends = AxisEnds::default();
             self.run.step_times.clear();
         }
+        if let Some(last) = self.run.frames.back()
+            && frame.passages < last.passages
+        {
+            self.run.passages_before += last.passages;
+        }
         self.take_knobs(&frame);
         self.take_ranges(&frame);
         grow(&mut self.run.axis_ends, &frame);

@@ -17,8 +17,13 @@ impl App {
     /// Which number leads: what was simulated, where that holds for where the knobs are.
     pub fn leading(&self) -> Leading {
         let settled = self.life().is_some_and(|life| life.settled);
+        let passes = self
+            .frame()
+            .is_some_and(|frame| frame.stage == Stage::Passage);
         if settled && !self.choice.dials.iter().any(Dial::is_moving) {
             Leading::Simulated
+        } else if passes && self.life().is_some() {
+            Leading::Settling
         } else if self.lives.anchor.is_some() {
             Leading::Scaled
         } else {
@@ -30,7 +35,7 @@ impl App {
     pub fn leading_factors(&self) -> Option<Factors> {
         self.run.setup.scene.life.as_ref()?;
         match (self.leading(), self.life()) {
-            (Leading::Simulated, Some(life)) => Some(simulated(&life)),
+            (Leading::Simulated | Leading::Settling, Some(life)) => Some(simulated(&life)),
             _ => Some(self.lives.estimate.best()),
         }
     }
@@ -38,7 +43,7 @@ impl App {
     /// The relative life that leads.
     pub fn leading_life(&self) -> Option<f64> {
         match (self.leading(), self.life()) {
-            (Leading::Simulated, Some(life)) => Some(life.life_relative),
+            (Leading::Simulated | Leading::Settling, Some(life)) => Some(life.life_relative),
             _ => self.leading_factors()?.life(),
         }
     }

@@ -26,9 +26,19 @@ impl App {
                 Vec::new()
             }
             (_, Some(new)) => {
+                let is_last = new.is_last;
                 self.replay.settled = Some(new);
+                let replays = self.replay.auto == AutoReplay::On;
+                let runs = self.run.pace == RunPace::Running;
+                if !is_last {
+                    // The run goes on to a finer mesh meanwhile.
+                    if replays && runs {
+                        self.replay_settled();
+                    }
+                    return Vec::new();
+                }
                 let mut effects = self.begin_sweep();
-                if self.replay.auto == AutoReplay::On && self.run.pace == RunPace::Running {
+                if replays && runs {
                     effects.extend(self.begin_replay());
                 }
                 effects
@@ -49,18 +59,35 @@ impl App {
     /// Passages of 4 a since the start, those of a replay too.
     pub(super) fn passages(&self) -> f64 {
         let newest = self.run.frames.back().map_or(0.0, |frame| frame.passages);
-        newest + self.replay.playing.as_ref().map_or(0.0, Replay::passages)
+        let replayed = self.replay.playing.as_ref().map_or(0.0, Replay::passages);
+        self.run.passages_before + newest + replayed
     }
 
+    /// Replays what has settled, while the run rests where it is on its last mesh.
     fn begin_replay(&mut self) -> Vec<Effect> {
+        let is_last = (self.replay.settled.as_ref()).is_some_and(|settled| settled.is_last);
+        if self.replay_settled() && is_last {
+            self.paused_first()
+        } else {
+            Vec::new()
+        }
+    }
+
+    /// Whether there is something to replay.
+    fn replay_settled(&mut self) -> bool {
         let replay = self.replay.settled.clone().and_then(Replay::new);
         let Some(replay) = replay else {
-            return Vec::new();
+            // On a finer mesh nothing moves that moved on a coarser one.
+            self.replay.playing = None;
+            return false;
         };
         self.run.frames_back = 0;
-        self.replay.playing = Some(replay);
+        if let Some(coarser) = self.replay.playing.replace(replay) {
+            // The lesson's time does not go back.
+            self.run.passages_before += coarser.passages();
+        }
         self.retrace();
-        self.paused_first()
+        true
     }
 
     /// Back to the run, which goes on.

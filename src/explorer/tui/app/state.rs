@@ -57,6 +57,8 @@ pub(crate) struct RunState {
     pub(super) frames: VecDeque<Arc<Frame>>,
     /// How many frames back from the newest the screen shows.
     pub(super) frames_back: usize,
+    /// Passages that were made on other meshes, or before a knob sent the run back to the first.
+    pub(super) passages_before: f64,
     /// What the ranges of pictures come from.
     pub(super) scope: Option<Scope>,
     pub(crate) axis_ends: AxisEnds,
@@ -197,6 +199,7 @@ impl App {
                 pace: RunPace::default(),
                 frames: VecDeque::new(),
                 frames_back: 0,
+                passages_before: 0.0,
                 scope: None,
                 axis_ends: AxisEnds::default(),
                 kymograph: Kymograph::default(),

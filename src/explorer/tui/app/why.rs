@@ -199,7 +199,7 @@ impl WhyLine {
     /// In so many columns: changes give way from the last but one, the life stays, then who governs.
     pub fn in_columns(&self, columns: usize) -> String {
         let mark = match self.of {
-            Leading::Simulated => "",
+            Leading::Simulated | Leading::Settling => "",
             Leading::Scaled | Leading::Formula => "formula: ",
         };
         let mut changes: Vec<&str> = self.changes.iter().map(String::as_str).collect();

@@ -66,7 +66,7 @@ pub(super) fn bordered(theme: Theme, borders: Borders, role: Role) -> Block<'sta
 /// The look of a number: a role of its own where the simulation says it, else that of formulas.
 pub(super) fn led(leading: Leading, simulated: Role) -> Role {
     match leading {
-        Leading::Simulated => simulated,
+        Leading::Simulated | Leading::Settling => simulated,
         Leading::Scaled | Leading::Formula => Role::Formula,
     }
 }
@@ -87,6 +87,6 @@ pub(super) fn title<'a>(theme: Theme, key: &'a str, name: &'a str) -> Line<'a> {
 pub(super) fn simulated(app: &App, style: Style) -> Style {
     match app.leading() {
         Leading::Simulated => style,
-        Leading::Scaled | Leading::Formula => style.add_modifier(Modifier::DIM),
+        Leading::Settling | Leading::Scaled | Leading::Formula => style.add_modifier(Modifier::DIM),
     }
 }

@@ -72,10 +72,15 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
         let share = format!("start-up {share:.0} %");
         return vec![(share, Role::Warn), (how, Role::Text)];
     }
-    let mut words = vec![
+    let mut words = Vec::new();
+    if let Some((nodes, done)) = app.run.status.finer {
+        let percent = (100.0 * done).floor();
+        words.push((format!("{nodes}² {percent:.0} %"), Role::Warn));
+    }
+    words.extend([
         (format!("passage {:.2}", frame.passages), Role::Text),
         (format!("step {}", frame.step), Role::Text),
-    ];
+    ]);
     if let Some(body) = knobs::standing(frame.metrics.slide_roll) {
         let means = match app.run.setup.scene.life.as_ref().map(|life| life.cycles) {
             Some(CycleBasis::Damage) => ": its cycles never end",

@@ -128,18 +128,23 @@ fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
     let parts = match (app.leading(), app.life()) {
         (Leading::Simulated, Some(life)) => {
             let (low, high) = (life.life_relative_low, life.life_relative_high);
-            let band = format!("{}–{}", sig(low, 2), sig(high, 2));
-            let band = theme.span(band, Role::Text);
+            let band = theme.span(band(low, high), Role::Text);
             let source = source(app, " ");
+            let mesh = theme.span(mesh(app), Role::Dim);
             let name = match beside {
                 Beside::Source => theme.span("num. error ", Role::Text),
                 Beside::Nothing if source.width() + band.width() <= usize::from(width) => source,
                 Beside::Nothing => Span::styled("sim. ", source.style),
             };
+            let name = match mesh.width() {
+                0 => name,
+                _ => mesh,
+            };
             vec![name, band, formula]
         }
         (leading, life) => {
             let settling = match life {
+                Some(_) if leading == Leading::Settling => mesh(app) + "not settled",
                 Some(life) => format!("settling {}", sig(life.life_relative, 2)),
                 None => "not simulated".to_owned(),
             };
@@ -147,13 +152,32 @@ fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
             if beside == Beside::Nothing {
                 parts.insert(0, source(app, " "));
             }
-            if leading == Leading::Scaled {
-                parts.push(formula);
+            match leading {
+                Leading::Scaled | Leading::Settling => parts.push(formula),
+                Leading::Simulated | Leading::Formula => {}
             }
             parts
         }
     };
     fitted(parts, width)
+}
+
+/// The mesh of what is shown, where the run climbs several: "65² ".
+fn mesh(app: &App) -> String {
+    match app.frame() {
+        Some(frame) if app.run.status.climbs => format!("{}² ", frame.nx),
+        Some(_) | None => String::new(),
+    }
+}
+
+/// The ends of a band; of a narrow one half of its width.
+fn band(low: f64, high: f64) -> String {
+    let half = 0.5 * (high / low).ln();
+    if (0.0..0.05).contains(&half) {
+        format!("± {} %", sig(100.0 * half, 1))
+    } else {
+        format!("{}–{}", sig(low, 2), sig(high, 2))
+    }
 }
 
 /// A number short enough for large figures.
