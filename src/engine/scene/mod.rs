@@ -22,6 +22,7 @@ pub mod presets;
 mod shape;
 mod tooth;
 
+pub(crate) use derived::side_m;
 pub use error::SceneError;
 pub use knob::{Knob, KnobLine, RampRate, Reach, Steps};
 pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread};
