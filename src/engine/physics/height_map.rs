@@ -10,13 +10,14 @@
 //! | Δ | pixel | m |
 //! | A | maximum departure from the level, as asked; the file's own is [`HeightMap::peak_m`] | m |
 //!
-//! The origin is the middle of the map. Order 3 in Δ, continuous slope (Keys 1981, IEEE Trans. ASSP 29,
-//! 1153-1160); a test measures the order. *Periodic* maps repeat without end, their level is the mean.
-//! *Windowed* maps stand once: their level is the mean of the outermost pixels, and a cosine takes the
+//! The level is what [`MapLevel`] takes off. The origin is the middle of the map. Order 3 in Δ, continuous slope (Keys 1981, IEEE Trans. ASSP 29,
+//! 1153-1160); a test measures the order. *Periodic* maps repeat without end, the mean of what is left is zero.
+//! *Windowed* maps stand once: the mean of the outermost pixels of what is left is zero, and a cosine takes the
 //! outer tenth of each side down to zero, so that nothing jumps.
 
 use std::f64::consts::PI;
 
+use super::levelling::{Form, MapLevel, MapOutliers, Pixels};
 use crate::math::spectrum::mean_power;
 
 crate::closed_set! {
@@ -28,6 +29,17 @@ crate::closed_set! {
         Periodic = "periodic",
         /// Nothing: the map stands once and is tapered to zero at its edges.
         Windowed = "windowed",
+    }
+}
+
+impl MapEdge {
+    /// What is taken off where a scene does not say: the plane of a map that stands once. Of one that repeats the mean
+    /// alone, because its waves have a plane of their own, which belongs to them.
+    pub fn usual_level(self) -> MapLevel {
+        match self {
+            Self::Periodic => MapLevel::Mean,
+            Self::Windowed => MapLevel::Plane,
+        }
     }
 }
 
@@ -55,24 +67,111 @@ pub struct HeightMap {
     pub shortest: [f64; 2],
     /// Whether the map is its own mirror image in y.
     pub is_even_in_y: bool,
+    /// What was found in the heights as they came.
+    pub facts: MapFacts,
+}
+
+/// What was found in heights as they came, and what was done about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MapFacts {
+    /// What was taken off.
+    pub level: MapLevel,
+    /// Least and greatest height of what is left, m.
+    pub range_m: [f64; 2],
+    /// Slopes of the best plane along x and y, m a pixel.
+    pub plane_m: [f64; 2],
+    /// Mean square height of that plane over that of the heights, both about the mean.
+    pub plane_share: f64,
+    /// Whether that plane stands as a step at the seams of a map that repeats ([`Pixels::is_open`]).
+    pub is_open: bool,
+    /// How many outliers there were.
+    pub outliers: usize,
+    /// What became of them.
+    pub outlying: MapOutliers,
+    /// [`HeightMap::shortest`] without the outliers that were kept; `None`: none were.
+    pub shortest_without_outliers: Option<[f64; 2]>,
+    /// The same without the plane that was left in.
+    pub shortest_without_plane: Option<[f64; 2]>,
 }
 
 impl HeightMap {
+    /// A map as [`HeightMap::new`] makes it, of which `level` is taken off and outliers are treated; what was found is
+    /// in its [`MapFacts`].
+    pub fn treated(
+        nx: usize,
+        heights_m: &[f64],
+        beyond: MapEdge,
+        (level, outlying): (MapLevel, MapOutliers),
+    ) -> Option<Self> {
+        let raw = Pixels::new(nx, heights_m);
+        let outliers = raw.outliers(&raw.form(), beyond);
+        let mut sound_m = heights_m.to_vec();
+        for &(n, median_m) in &outliers {
+            sound_m[n] = median_m;
+        }
+        let kept_m = match outlying {
+            MapOutliers::Keep => heights_m,
+            MapOutliers::Median => &sound_m,
+        };
+        let kept = Pixels::new(nx, kept_m);
+        let (form, variance) = (kept.form(), kept.variance());
+        let mut map = Self::levelled(nx, kept_m, beyond, (level, form))?;
+        let shortest = |heights_m: &[f64], level: MapLevel| {
+            let form = Pixels::new(nx, heights_m).form();
+            Self::levelled(nx, heights_m, beyond, (level, form)).map(|map| map.shortest)
+        };
+        let (is_spiked, is_tilted) = match (outlying, level) {
+            (MapOutliers::Keep, _) if !outliers.is_empty() => (true, false),
+            (_, MapLevel::None | MapLevel::Mean) => (false, form.slopes != [0.0; 2]),
+            (_, MapLevel::Plane | MapLevel::Quadratic) => (false, false),
+        };
+        map.facts = MapFacts {
+            plane_share: if variance > 0.0 {
+                form.plane_variance() / variance
+            } else {
+                0.0
+            },
+            is_open: beyond == MapEdge::Periodic && kept.is_open(&form),
+            outliers: outliers.len(),
+            outlying,
+            shortest_without_outliers: is_spiked.then(|| shortest(&sound_m, level)).flatten(),
+            shortest_without_plane: is_tilted
+                .then(|| shortest(kept_m, MapLevel::Plane))
+                .flatten(),
+            ..map.facts
+        };
+        Some(map)
+    }
     /// A map of `nx` columns along x, row after row towards +y; `None` where there is no height at all.
     /// Heights must be finite, in m.
     pub fn new(nx: usize, heights_m: &[f64], beyond: MapEdge) -> Option<Self> {
+        Self::treated(nx, heights_m, beyond, (MapLevel::Mean, MapOutliers::Keep))
+    }
+
+    /// Same, less what `level` says of the best polynomial.
+    fn levelled(
+        nx: usize,
+        heights_m: &[f64],
+        beyond: MapEdge,
+        (level, best): (MapLevel, Form),
+    ) -> Option<Self> {
         let ny = heights_m.len() / nx.max(1);
         if nx == 0 || ny == 0 {
             return None;
         }
-        let level = level(nx, ny, heights_m, beyond);
+        let form = best.of(level);
+        let left = |n: usize| heights_m[n] - form.at(n);
+        let mean = match level {
+            MapLevel::None => 0.0,
+            MapLevel::Mean | MapLevel::Plane | MapLevel::Quadratic => mean(nx, ny, left, beyond),
+        };
         let window = |at: usize, n: usize| match beyond {
             MapEdge::Periodic => 1.0,
             MapEdge::Windowed => taper(at, n),
         };
         let height = |n: usize| {
             let (i, j) = (n % nx, n / nx);
-            (heights_m[n] - level) * window(i, nx) * window(j, ny)
+            (left(n) - mean) * window(i, nx) * window(j, ny)
         };
         let peak_m = (0..nx * ny).map(|n| height(n).abs()).fold(0.0, f64::max);
         // Below this the "height" is rounding of the level.
@@ -91,6 +190,19 @@ impl HeightMap {
             crests: 0.0,
             shortest: [f64::INFINITY; 2],
             is_even_in_y: false,
+            facts: MapFacts {
+                level,
+                range_m: (0..nx * ny)
+                    .map(height)
+                    .fold([f64::MAX, f64::MIN], |[a, b], z| [a.min(z), b.max(z)]),
+                plane_m: best.slopes,
+                plane_share: 0.0,
+                is_open: false,
+                outliers: 0,
+                outlying: MapOutliers::Keep,
+                shortest_without_outliers: None,
+                shortest_without_plane: None,
+            },
             shape,
         };
         map.crests = map.crest_density();
@@ -202,16 +314,17 @@ impl HeightMap {
     }
 }
 
-fn level(nx: usize, ny: usize, heights: &[f64], beyond: MapEdge) -> f64 {
+/// Mean of all pixels, of a windowed map of the outermost.
+fn mean(nx: usize, ny: usize, height: impl Fn(usize) -> f64, beyond: MapEdge) -> f64 {
     let is_rim = |n: usize| {
         let (i, j) = (n % nx, n / nx);
         i == 0 || j == 0 || i + 1 == nx || j + 1 == ny
     };
     let mut sum = 0.0;
     let mut count = 0.0;
-    for (n, &z) in heights.iter().enumerate().take(nx * ny) {
+    for n in 0..nx * ny {
         if beyond == MapEdge::Periodic || is_rim(n) {
-            sum += z;
+            sum += height(n);
             count += 1.0;
         }
     }

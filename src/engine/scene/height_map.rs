@@ -16,9 +16,11 @@ use std::path::Path;
 use self::header::Header;
 use super::error::{SceneError, shortened};
 use super::keys::{self, joined, short};
+use super::map_report::tilt;
 use super::presets;
 use crate::files::{FnvHasher, read_up_to};
 use crate::physics::height_map::{HeightMap, MapEdge};
+use crate::physics::levelling::{MapLevel, MapOutliers};
 
 /// Largest file, bytes.
 const LARGEST_FILE: u64 = 64 << 20;
@@ -55,6 +57,8 @@ pub(super) struct Asked<'a> {
     pub(super) pixel_m: Option<f64>,
     pub(super) unit_m: Option<f64>,
     pub(super) beyond: MapEdge,
+    pub(super) level: Option<MapLevel>,
+    pub(super) outliers: MapOutliers,
 }
 
 /// A map that has been read, with what the scene left to its file.
@@ -79,8 +83,20 @@ impl Asked<'_> {
         check(&matrix, unit_m).map_err(refused)?;
         let pixel_m = self.pixel_m(&matrix, &header)?;
         let heights: Vec<f64> = matrix.values.iter().map(|v| v * unit_m).collect();
-        let map = HeightMap::new(matrix.columns, &heights, self.beyond)
+        let level = self.level.unwrap_or(self.beyond.usual_level());
+        let treatment = (level, self.outliers);
+        let map = HeightMap::treated(matrix.columns, &heights, self.beyond, treatment)
             .ok_or_else(|| refused(refusal("flat", "a map whose heights differ")))?;
+        if self.level.is_none() && map.facts.is_open {
+            return Err(SceneError::map(
+                joined(self.table, "level"),
+                "left out, of a periodic map that is tilted".to_owned(),
+                format!(
+                    "\"plane\", which takes the tilt off, or \"mean\", which keeps it: {}, and the ends of the map do not meet",
+                    tilt(&map, pixel_m)
+                ),
+            ));
+        }
         Ok(Found {
             map,
             digest: digest(&matrix),

@@ -215,6 +215,8 @@ impl Scene {
                 edge,
                 unit_m,
                 digest,
+                level,
+                outliers,
                 map,
                 ..
             } = &mut body.surface
@@ -226,6 +228,8 @@ impl Scene {
                     pixel_m: *pixel_m,
                     unit_m: *unit_m,
                     beyond: *edge,
+                    level: *level,
+                    outliers: *outliers,
                 };
                 let found = asked.read(folder)?;
                 if digest

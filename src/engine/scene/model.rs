@@ -13,6 +13,7 @@ use crate::closed_set;
 use crate::physics::height_map::HeightMap;
 pub use crate::physics::height_map::MapEdge;
 pub use crate::physics::hertz::ContactKind;
+pub use crate::physics::levelling::{MapLevel, MapOutliers};
 
 /// A whole scene: what the user asks for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -151,6 +152,12 @@ pub enum Surface {
         /// Height that a value of 1 stands for, m; `None`: as the file's header says, else 1; filled in likewise.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         unit_m: Option<f64>,
+        /// What is taken off; `None`: as the edge says ([`MapEdge::usual_level`]), and a periodic map must then close.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        level: Option<MapLevel>,
+        /// What becomes of outlying pixels.
+        #[serde(default)]
+        outliers: MapOutliers,
         /// Maximum departure from the map's level, m; `None`: as in the file.
         #[serde(skip_serializing_if = "Option::is_none")]
         amplitude_m: Option<f64>,

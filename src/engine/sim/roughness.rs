@@ -328,6 +328,8 @@ mod tests {
                 pixel_m: Some(0.05e-3),
                 edge: crate::scene::MapEdge::Periodic,
                 unit_m: None,
+                level: None,
+                outliers: crate::scene::MapOutliers::Keep,
                 amplitude_m: None,
                 start_x_m: Some(-0.5e-3),
                 digest: None,
