@@ -587,6 +587,14 @@ fn the_refusal_of_short_waves_names_what_makes_them_short() {
         &refusal(&tilted(60.0), "level = \"mean\""),
         &["slope 2 pi Rq/W", "the tilt", "surface.level = \"plane\""],
     );
+    // Short waves: what the median leaves of the pixel is no wave along the ridges.
+    let mut short = map_nm(80, 80, |u, _| 200.0 * (TAU * (u + 0.5) / 20.0).cos());
+    short[40 * 80 + 39] = 6000.0;
+    has_all(
+        &refusal(&short, ""),
+        &["1 outlying pixel", "surface.outliers = \"median\""],
+    );
+    assert_eq!(refusal(&short, "outliers = \"median\""), "accepted");
     let rough = map_nm(80, 80, |u, _| 100.0 * (TAU * (u + 0.5) / 4.0).cos());
     let text = refusal(&rough, "");
     has_all(&text, &["shortest significant wave", "smooth the map"]);

@@ -45,6 +45,8 @@ impl MapEdge {
 
 /// Part of the variance of height that lies in waves longer than [`HeightMap::shortest`].
 pub const SIGNIFICANT: f64 = 0.98;
+/// Part of the variance that unevenness along ridges may have: one pixel of them that a median replaced, their noise.
+const UNEVEN: f64 = 1e-3;
 /// Part of each side of a windowed map that is taken down to zero.
 const TAPER: f64 = 0.1;
 /// Half-width, in Rq, of the band about the level that a crossing must leave.
@@ -207,10 +209,10 @@ impl HeightMap {
         };
         map.crests = map.crest_density();
         let at = |i: usize, j: usize| f64::from(map.shape[j * nx + i]);
-        map.shortest = [
-            shortest(nx, &mean_power(nx, ny, |j| (0..nx).map(move |i| at(i, j)))),
-            shortest(ny, &mean_power(ny, nx, |i| (0..ny).map(move |j| at(i, j)))),
-        ];
+        let along = mean_power(nx, ny, |j| (0..nx).map(move |i| at(i, j)));
+        let across = mean_power(ny, nx, |i| (0..ny).map(move |j| at(i, j)));
+        let of_all = shape_variance(&map.shape);
+        map.shortest = [shortest(nx, &along, of_all), shortest(ny, &across, of_all)];
         map.is_even_in_y =
             (0..ny / 2).all(|j| (0..nx).all(|i| (at(i, j) - at(i, ny - 1 - j)).abs() <= 1e-6));
         Some(map)
@@ -344,12 +346,24 @@ fn taper(at: usize, n: usize) -> f64 {
     }
 }
 
-/// The wave beyond which only 2 % of the variance is left, pixels; ∞ where nothing varies.
-fn shortest(n: usize, power: &[f64]) -> f64 {
+fn shape_variance(shape: &[f32]) -> f64 {
+    let n = shape.len().max(1) as f64;
+    let mean = shape.iter().copied().map(f64::from).sum::<f64>() / n;
+    let squares = shape.iter().map(|&s| (f64::from(s) - mean).powi(2));
+    squares.sum::<f64>() / n
+}
+
+/// The wave beyond which only 2 % of the variance is left, pixels; ∞ where nothing varies. `variance`: of the whole map.
+/// Where less than [`UNEVEN`] of it runs this way, that is no wave that a mesh must carry, but it is not nothing.
+fn shortest(n: usize, power: &[f64], variance: f64) -> f64 {
     let total: f64 = power.iter().skip(1).sum();
     let constant = power.first().copied().unwrap_or(0.0);
     if total <= 1e-12 * constant || total == 0.0 {
         return f64::INFINITY;
+    }
+    // Parseval: the sum is n² times the mean variance of the lines.
+    if total < UNEVEN * variance * (n * n) as f64 {
+        return n as f64;
     }
     let mut sum = 0.0;
     for (k, p) in power.iter().enumerate().skip(1) {
@@ -410,6 +424,22 @@ mod tests {
         assert!(!map.is_even_in_y);
         assert!(HeightMap::new(4, &[1.7; 16], MapEdge::Periodic).is_none());
         assert!(HeightMap::new(0, &[], MapEdge::Periodic).is_none());
+    }
+
+    #[test]
+    fn a_pixel_that_is_mended_makes_no_wave_along_ridges() {
+        let ridges = |off: f64| {
+            let mut z: Vec<f64> = (0..32 * 32)
+                .map(|m| 2e-7 * (TAU * (m % 32) as f64 / 8.0).cos())
+                .collect();
+            z[20 * 32 + 17] += off;
+            HeightMap::new(32, &z, MapEdge::Periodic).unwrap().shortest
+        };
+        assert_eq!(ridges(0.0), [8.0, f64::INFINITY]);
+        // A share of 1/32² of (50/141)², along y 31/32 of it: 1.2e-4 of the variance.
+        assert_eq!(ridges(5e-8), [8.0, 32.0]);
+        // (200/141)²/32² = 2e-3 is more than a thousandth: white along y.
+        assert_eq!(ridges(2e-7)[1], 2.0);
     }
 
     #[test]
