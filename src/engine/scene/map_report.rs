@@ -194,13 +194,12 @@ impl MapReport {
             MapEdge::Periodic => "mean",
             MapEdge::Windowed => "mean of the rim",
         };
-        let off = match self.level {
+        match self.level {
             MapLevel::None => return "nothing".to_owned(),
             MapLevel::Mean => format!("the {mean}"),
             MapLevel::Plane => format!("the best plane and the {mean}"),
             MapLevel::Quadratic => format!("the best quadratic and the {mean}"),
-        };
-        off
+        }
     }
 
     fn plane(&self) -> String {

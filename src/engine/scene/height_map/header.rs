@@ -128,10 +128,9 @@ impl Raw {
             .unwrap_or(self.words.len());
         let (number, rest) = self.words.split_at(end);
         // 1e-4 m: an exponent is no unit.
-        let exponent = rest
-            .strip_prefix(['e', 'E'])
-            .map(|tail| tail.find(|c| !is_of_number(c)).unwrap_or(tail.len()) + 1)
-            .unwrap_or(0);
+        let exponent = rest.strip_prefix(['e', 'E']).map_or(0, |tail| {
+            tail.find(|c| !is_of_number(c)).unwrap_or(tail.len()) + 1
+        });
         let (exponent, rest) = rest.split_at(exponent);
         let mark = match mark {
             Some(Mark::Comma) if number.contains(',') => Mark::Comma,

@@ -74,7 +74,7 @@ mod tests {
         assert!(leads(&list(32, 32, |i, j| [at(i), at(j)])), "x fast");
         assert!(leads(&list(32, 20, |i, j| [at(j), at(i)])), "y fast");
         assert!(leads(&list(5, 9, |i, j| [at(i), -at(j)])), "downward");
-        let there_and_back = |i: usize, j: usize| if j % 2 == 0 { i } else { 6 - i };
+        let there_and_back = |i: usize, j: usize| if j.is_multiple_of(2) { i } else { 6 - i };
         assert!(leads(&list(7, 6, |i, j| [at(there_and_back(i, j)), at(j)])));
         // The last row is cut short.
         let mut cut = list(32, 32, |i, j| [at(i), at(j)]);
