@@ -178,7 +178,9 @@ fn line(code: CautionCode) -> Option<usize> {
         CautionCode::ModelRange => Some(6),
         CautionCode::NotSettled => Some(7),
         // The list of cautions has it; the group of lines stays as viewers know it.
-        CautionCode::ShortDomain
+        CautionCode::AmplitudeDoubtful
+        | CautionCode::MapDoubtful
+        | CautionCode::ShortDomain
         | CautionCode::AboveSmooth
         | CautionCode::NoLife
         | CautionCode::StrengthUnknown

@@ -565,3 +565,65 @@ fn another_surface_under_the_same_name_is_another_scene() {
     refused(&run(&goes_on), 1, &["map.csv", "have changed"]);
     refused(&asperity(place, &repeats), 1, &["map.csv", "have changed"]);
 }
+
+#[test]
+fn what_a_map_is_stands_in_check_report_and_summary() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path();
+    // 16 pixels of 0.4 mm a side, waves of 100 nm by hand: 0, 100, 0, -100.
+    let row = "0,0;100,0;0;-100,0;0;100;0;-100;0;100;0;-100;0;100;0;-100\n";
+    let header = "# Width: 6.4 mm\n# Value units: nm\n".replace('.', ",");
+    std::fs::write(place.join("map.txt"), header + &row.repeat(16)).unwrap();
+    let scene = [
+        "--set=body_2.surface.kind=height_map",
+        "--set=body_2.surface.file=map.txt",
+    ];
+    let told = [
+        "map.txt: 16 rows x 16 columns, 6400 µm along x, 6400 µm along y; a value of 1 is 1e-9 m",
+        "taken off: the mean",
+        "minimum -100 nm, maximum 100 nm, Sq 70.7 nm, greatest departure 1.41 Sq",
+    ];
+    let with = |own: &[&str]| {
+        let output = asperity(place, &[own, &SMALL[1..2], &scene].concat());
+        assert!(
+            matches!(output.status.code(), Some(0 | 2)),
+            "{}",
+            text(&output.stderr)
+        );
+        text(&output.stdout)
+    };
+    let check = with(&["check", "--set=grid.nodes=33"]);
+    let run = [
+        "run",
+        "--passages=0.25",
+        "--set=grid.nodes=33",
+        "--no-record",
+    ];
+    let report = with(&run);
+    for line in told {
+        assert!(check.contains(line), "{line}: {check}");
+        assert!(report.contains(line), "{line}: {report}");
+    }
+    let summary = with(&[&run[..], &["--summary=-"]].concat());
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let map = &summary["map_body_2"];
+    assert_eq!(summary.get("map_body_1"), None, "its surface is a sinusoid");
+    assert_eq!((&map["rows"], &map["columns"]), (&16.into(), &16.into()));
+    assert_eq!(
+        (&map["level"], &map["outliers"]),
+        (&"mean".into(), &0.into())
+    );
+    assert!(map["file"].as_str().unwrap().ends_with("map.txt"));
+    for (key, told) in [
+        ("size_x_m", 6.4e-3),
+        ("size_y_m", 6.4e-3),
+        ("unit_m", 1e-9),
+        ("min_m", -1e-7),
+        ("max_m", 1e-7),
+        ("sq_m", 1e-7 / 2.0_f64.sqrt()),
+        ("max_over_sq", 2.0_f64.sqrt()),
+    ] {
+        let found = map[key].as_f64().unwrap();
+        assert!((found / told - 1.0).abs() < 1e-6, "{key}: {found:e}");
+    }
+}

@@ -365,6 +365,8 @@ pub(crate) fn settled(state: &State) -> Settled {
             .collect(),
         period_s: steps as f64 * step_m / state.speed_m_s,
         state: None,
+        is_last: true,
+        ground: None,
     }
 }
 

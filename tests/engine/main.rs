@@ -17,6 +17,7 @@ mod hertz_dry;
 mod ladder;
 mod line;
 mod lubricants;
+mod measured_maps;
 mod motions;
 mod order;
 mod plan;

@@ -3,4 +3,5 @@
 #[path = "../common/engine.rs"]
 mod common;
 mod discretisation;
+mod rungs;
 mod session;

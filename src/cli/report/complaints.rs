@@ -1,6 +1,6 @@
 //! What went wrong with a run, in words.
 
-use asperity_engine::math::number::counted;
+use asperity_engine::math::number::{counted, fixed};
 use asperity_session::run::{End, Outcome};
 
 /// What went wrong, for stderr; empty when nothing did.
@@ -22,7 +22,7 @@ pub(crate) fn complaints(outcome: &Outcome) -> Vec<String> {
             step.time_s,
             step.unsolved,
             match 1e9 * step.overlap_m {
-                nm if nm > 0.0 => format!(", surfaces overlap by {nm:.2} nm"),
+                nm if nm > 0.0 => format!(", surfaces overlap by {} nm", fixed(nm, 2)),
                 _ => String::new(),
             }
         ));

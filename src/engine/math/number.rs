@@ -44,6 +44,27 @@ pub fn sig_or_dash(value: Option<f64>, digits: i32) -> String {
     value.map_or_else(|| "–".to_owned(), |v| sig(v, digits))
 }
 
+/// `value` with so many decimals; one that they would show as 0 to two significant figures instead.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    if value != 0.0 && value.abs() < 0.5 * 10_f64.powi(-(decimals as i32)) {
+        return sig(value, 2);
+    }
+    format!("{value:.decimals$}")
+}
+
+/// A length in the unit that suits it, to three significant figures; never 0 unless it is.
+pub fn length(value_m: f64) -> String {
+    let magnitude = value_m.abs();
+    let unit = if magnitude < 1e-6 {
+        NM
+    } else if magnitude < 1e-3 {
+        UM
+    } else {
+        Unit::new("mm", MM)
+    };
+    unit.show(value_m, 3)
+}
+
 /// A count with its noun, which takes an s unless there is one: "1 peak", "2 peaks".
 pub fn counted(n: u64, what: &str) -> String {
     let plural = if n == 1 { "" } else { "s" };
@@ -185,6 +206,33 @@ mod tests {
         ];
         for (value, digits, shown) in table {
             assert_eq!(sig(value, digits), shown, "{value} to {digits}");
+        }
+    }
+
+    #[test]
+    fn a_length_is_0_only_where_it_is() {
+        for (value_m, shown) in [
+            (0.0, "0 nm"),
+            (2e-7, "200 nm"),
+            (-2e-7, "-200 nm"),
+            (2e-13, "2.00e-4 nm"),
+            (4e-10, "0.400 nm"),
+            (1.5e-6, "1.50 µm"),
+            (2.5e-3, "2.50 mm"),
+            (1e-30, "1.00e-21 nm"),
+        ] {
+            assert_eq!(length(value_m), shown);
+        }
+        for (value, decimals, shown) in [
+            (0.0, 1, "0.0"),
+            (0.04, 1, "0.040"),
+            (-0.004, 2, "-0.0040"),
+            (0.05, 1, "0.1"),
+            (12.34, 1, "12.3"),
+            (0.3, 0, "0.30"),
+            (3e-9, 2, "3.0e-9"),
+        ] {
+            assert_eq!(fixed(value, decimals), shown, "{value}");
         }
     }
 

@@ -10,13 +10,14 @@
 //! | Δ | pixel | m |
 //! | A | maximum departure from the level, as asked; the file's own is [`HeightMap::peak_m`] | m |
 //!
-//! The origin is the middle of the map. Order 3 in Δ, continuous slope (Keys 1981, IEEE Trans. ASSP 29,
-//! 1153-1160); a test measures the order. *Periodic* maps repeat without end, their level is the mean.
-//! *Windowed* maps stand once: their level is the mean of the outermost pixels, and a cosine takes the
+//! The level is what [`MapLevel`] takes off. The origin is the middle of the map. Order 3 in Δ, continuous slope (Keys 1981, IEEE Trans. ASSP 29,
+//! 1153-1160); a test measures the order. *Periodic* maps repeat without end, the mean of what is left is zero.
+//! *Windowed* maps stand once: the mean of the outermost pixels of what is left is zero, and a cosine takes the
 //! outer tenth of each side down to zero, so that nothing jumps.
 
 use std::f64::consts::PI;
 
+use super::levelling::{Form, MapLevel, MapOutliers, Pixels};
 use crate::math::spectrum::mean_power;
 
 crate::closed_set! {
@@ -31,8 +32,21 @@ crate::closed_set! {
     }
 }
 
+impl MapEdge {
+    /// What is taken off where a scene does not say: the plane of a map that stands once. Of one that repeats the mean
+    /// alone, because its waves have a plane of their own, which belongs to them.
+    pub fn usual_level(self) -> MapLevel {
+        match self {
+            Self::Periodic => MapLevel::Mean,
+            Self::Windowed => MapLevel::Plane,
+        }
+    }
+}
+
 /// Part of the variance of height that lies in waves longer than [`HeightMap::shortest`].
 pub const SIGNIFICANT: f64 = 0.98;
+/// Part of the variance that unevenness along ridges may have: one pixel of them that a median replaced, their noise.
+const UNEVEN: f64 = 1e-3;
 /// Part of each side of a windowed map that is taken down to zero.
 const TAPER: f64 = 0.1;
 /// Half-width, in Rq, of the band about the level that a crossing must leave.
@@ -55,24 +69,111 @@ pub struct HeightMap {
     pub shortest: [f64; 2],
     /// Whether the map is its own mirror image in y.
     pub is_even_in_y: bool,
+    /// What was found in the heights as they came.
+    pub facts: MapFacts,
+}
+
+/// What was found in heights as they came, and what was done about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MapFacts {
+    /// What was taken off.
+    pub level: MapLevel,
+    /// Least and greatest height of what is left, m.
+    pub range_m: [f64; 2],
+    /// Slopes of the best plane along x and y, m a pixel.
+    pub plane_m: [f64; 2],
+    /// Mean square height of that plane over that of the heights, both about the mean.
+    pub plane_share: f64,
+    /// Whether that plane stands as a step at the seams of a map that repeats ([`Pixels::is_open`]).
+    pub is_open: bool,
+    /// How many outliers there were.
+    pub outliers: usize,
+    /// What became of them.
+    pub outlying: MapOutliers,
+    /// [`HeightMap::shortest`] without the outliers that were kept; `None`: none were.
+    pub shortest_without_outliers: Option<[f64; 2]>,
+    /// The same without the plane that was left in.
+    pub shortest_without_plane: Option<[f64; 2]>,
 }
 
 impl HeightMap {
+    /// A map as [`HeightMap::new`] makes it, of which `level` is taken off and outliers are treated; what was found is
+    /// in its [`MapFacts`].
+    pub fn treated(
+        nx: usize,
+        heights_m: &[f64],
+        beyond: MapEdge,
+        (level, outlying): (MapLevel, MapOutliers),
+    ) -> Option<Self> {
+        let raw = Pixels::new(nx, heights_m);
+        let outliers = raw.outliers(&raw.form(), beyond);
+        let mut sound_m = heights_m.to_vec();
+        for &(n, median_m) in &outliers {
+            sound_m[n] = median_m;
+        }
+        let kept_m = match outlying {
+            MapOutliers::Keep => heights_m,
+            MapOutliers::Median => &sound_m,
+        };
+        let kept = Pixels::new(nx, kept_m);
+        let (form, variance) = (kept.form(), kept.variance());
+        let mut map = Self::levelled(nx, kept_m, beyond, (level, form))?;
+        let shortest = |heights_m: &[f64], level: MapLevel| {
+            let form = Pixels::new(nx, heights_m).form();
+            Self::levelled(nx, heights_m, beyond, (level, form)).map(|map| map.shortest)
+        };
+        let (is_spiked, is_tilted) = match (outlying, level) {
+            (MapOutliers::Keep, _) if !outliers.is_empty() => (true, false),
+            (_, MapLevel::None | MapLevel::Mean) => (false, form.slopes != [0.0; 2]),
+            (_, MapLevel::Plane | MapLevel::Quadratic) => (false, false),
+        };
+        map.facts = MapFacts {
+            plane_share: if variance > 0.0 {
+                form.plane_variance() / variance
+            } else {
+                0.0
+            },
+            is_open: beyond == MapEdge::Periodic && kept.is_open(&form),
+            outliers: outliers.len(),
+            outlying,
+            shortest_without_outliers: is_spiked.then(|| shortest(&sound_m, level)).flatten(),
+            shortest_without_plane: is_tilted
+                .then(|| shortest(kept_m, MapLevel::Plane))
+                .flatten(),
+            ..map.facts
+        };
+        Some(map)
+    }
     /// A map of `nx` columns along x, row after row towards +y; `None` where there is no height at all.
     /// Heights must be finite, in m.
     pub fn new(nx: usize, heights_m: &[f64], beyond: MapEdge) -> Option<Self> {
+        Self::treated(nx, heights_m, beyond, (MapLevel::Mean, MapOutliers::Keep))
+    }
+
+    /// Same, less what `level` says of the best polynomial.
+    fn levelled(
+        nx: usize,
+        heights_m: &[f64],
+        beyond: MapEdge,
+        (level, best): (MapLevel, Form),
+    ) -> Option<Self> {
         let ny = heights_m.len() / nx.max(1);
         if nx == 0 || ny == 0 {
             return None;
         }
-        let level = level(nx, ny, heights_m, beyond);
+        let form = best.of(level);
+        let left = |n: usize| heights_m[n] - form.at(n);
+        let mean = match level {
+            MapLevel::None => 0.0,
+            MapLevel::Mean | MapLevel::Plane | MapLevel::Quadratic => mean(nx, ny, left, beyond),
+        };
         let window = |at: usize, n: usize| match beyond {
             MapEdge::Periodic => 1.0,
             MapEdge::Windowed => taper(at, n),
         };
         let height = |n: usize| {
             let (i, j) = (n % nx, n / nx);
-            (heights_m[n] - level) * window(i, nx) * window(j, ny)
+            (left(n) - mean) * window(i, nx) * window(j, ny)
         };
         let peak_m = (0..nx * ny).map(|n| height(n).abs()).fold(0.0, f64::max);
         // Below this the "height" is rounding of the level.
@@ -91,14 +192,27 @@ impl HeightMap {
             crests: 0.0,
             shortest: [f64::INFINITY; 2],
             is_even_in_y: false,
+            facts: MapFacts {
+                level,
+                range_m: (0..nx * ny)
+                    .map(height)
+                    .fold([f64::MAX, f64::MIN], |[a, b], z| [a.min(z), b.max(z)]),
+                plane_m: best.slopes,
+                plane_share: 0.0,
+                is_open: false,
+                outliers: 0,
+                outlying: MapOutliers::Keep,
+                shortest_without_outliers: None,
+                shortest_without_plane: None,
+            },
             shape,
         };
         map.crests = map.crest_density();
         let at = |i: usize, j: usize| f64::from(map.shape[j * nx + i]);
-        map.shortest = [
-            shortest(nx, &mean_power(nx, ny, |j| (0..nx).map(move |i| at(i, j)))),
-            shortest(ny, &mean_power(ny, nx, |i| (0..ny).map(move |j| at(i, j)))),
-        ];
+        let along = mean_power(nx, ny, |j| (0..nx).map(move |i| at(i, j)));
+        let across = mean_power(ny, nx, |i| (0..ny).map(move |j| at(i, j)));
+        let of_all = shape_variance(&map.shape);
+        map.shortest = [shortest(nx, &along, of_all), shortest(ny, &across, of_all)];
         map.is_even_in_y =
             (0..ny / 2).all(|j| (0..nx).all(|i| (at(i, j) - at(i, ny - 1 - j)).abs() <= 1e-6));
         Some(map)
@@ -202,16 +316,17 @@ impl HeightMap {
     }
 }
 
-fn level(nx: usize, ny: usize, heights: &[f64], beyond: MapEdge) -> f64 {
+/// Mean of all pixels, of a windowed map of the outermost.
+fn mean(nx: usize, ny: usize, height: impl Fn(usize) -> f64, beyond: MapEdge) -> f64 {
     let is_rim = |n: usize| {
         let (i, j) = (n % nx, n / nx);
         i == 0 || j == 0 || i + 1 == nx || j + 1 == ny
     };
     let mut sum = 0.0;
     let mut count = 0.0;
-    for (n, &z) in heights.iter().enumerate().take(nx * ny) {
+    for n in 0..nx * ny {
         if beyond == MapEdge::Periodic || is_rim(n) {
-            sum += z;
+            sum += height(n);
             count += 1.0;
         }
     }
@@ -231,12 +346,24 @@ fn taper(at: usize, n: usize) -> f64 {
     }
 }
 
-/// The wave beyond which only 2 % of the variance is left, pixels; ∞ where nothing varies.
-fn shortest(n: usize, power: &[f64]) -> f64 {
+fn shape_variance(shape: &[f32]) -> f64 {
+    let n = shape.len().max(1) as f64;
+    let mean = shape.iter().copied().map(f64::from).sum::<f64>() / n;
+    let squares = shape.iter().map(|&s| (f64::from(s) - mean).powi(2));
+    squares.sum::<f64>() / n
+}
+
+/// The wave beyond which only 2 % of the variance is left, pixels; ∞ where nothing varies. `variance`: of the whole map.
+/// Where less than [`UNEVEN`] of it runs this way, that is no wave that a mesh must carry, but it is not nothing.
+fn shortest(n: usize, power: &[f64], variance: f64) -> f64 {
     let total: f64 = power.iter().skip(1).sum();
     let constant = power.first().copied().unwrap_or(0.0);
     if total <= 1e-12 * constant || total == 0.0 {
         return f64::INFINITY;
+    }
+    // Parseval: the sum is n² times the mean variance of the lines.
+    if total < UNEVEN * variance * (n * n) as f64 {
+        return n as f64;
     }
     let mut sum = 0.0;
     for (k, p) in power.iter().enumerate().skip(1) {
@@ -297,6 +424,22 @@ mod tests {
         assert!(!map.is_even_in_y);
         assert!(HeightMap::new(4, &[1.7; 16], MapEdge::Periodic).is_none());
         assert!(HeightMap::new(0, &[], MapEdge::Periodic).is_none());
+    }
+
+    #[test]
+    fn a_pixel_that_is_mended_makes_no_wave_along_ridges() {
+        let ridges = |off: f64| {
+            let mut z: Vec<f64> = (0..32 * 32)
+                .map(|m| 2e-7 * (TAU * (m % 32) as f64 / 8.0).cos())
+                .collect();
+            z[20 * 32 + 17] += off;
+            HeightMap::new(32, &z, MapEdge::Periodic).unwrap().shortest
+        };
+        assert_eq!(ridges(0.0), [8.0, f64::INFINITY]);
+        // A share of 1/32² of (50/141)², along y 31/32 of it: 1.2e-4 of the variance.
+        assert_eq!(ridges(5e-8), [8.0, 32.0]);
+        // (200/141)²/32² = 2e-3 is more than a thousandth: white along y.
+        assert_eq!(ridges(2e-7)[1], 2.0);
     }
 
     #[test]

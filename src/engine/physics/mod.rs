@@ -14,6 +14,7 @@ pub mod height_map;
 pub mod hertz;
 pub mod invariants;
 pub mod iso281;
+pub mod levelling;
 pub mod life_models;
 pub mod line;
 pub mod multiaxial;

@@ -5,6 +5,7 @@ use super::{
     Crests, Domain, EDGES_WORTH_A_WORD, FilmPlan, LeftOut, MOLECULE_M, OtherFilms, Plan,
     StressPlan, Symmetry, TimeDependence, TractionDeflection, Valleys, Warning, WavePlan,
 };
+use crate::math::number::fixed;
 use crate::physics::film_regression;
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
@@ -319,7 +320,8 @@ pub(super) fn left_out(scene: &Scene, plan: &Plan) -> Vec<LeftOut> {
             leave(
                 "film and flow",
                 &format!(
-                    "film by formula {film_nm:.2} nm, less than one layer of molecules ({:.1} nm): solved dry",
+                    "film by formula {} nm, less than one layer of molecules ({:.1} nm): solved dry",
+                    fixed(film_nm, 2),
                     1e9 * MOLECULE_M
                 ),
             );

@@ -3,7 +3,8 @@
 use std::fmt;
 
 use super::{LINE_ROWS, LifePlan, OtherFilms, Plan, Symmetry, TimeDependence, WavePlan};
-use crate::scene::{ContactKind, CycleBasis, EyringFlow, Spread};
+use crate::math::number::{fixed, length};
+use crate::scene::{ContactKind, CycleBasis, EyringFlow, MapReport, Spread};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -49,24 +50,24 @@ impl Plan {
         match self.kind {
             ContactKind::Line => writeln!(
                 f,
-                "Contact     line: half-width {:.1} µm, uniform along y; Hertz pressure {:.3} GPa; load {} N/m",
-                hertz.a_m * 1e6,
+                "Contact     line: half-width {} µm, uniform along y; Hertz pressure {:.3} GPa; load {} N/m",
+                fixed(hertz.a_m * 1e6, 1),
                 hertz.p_max_pa * 1e-9,
                 significant(self.force_n)
             )?,
             ContactKind::Point => writeln!(
                 f,
-                "Contact     {}: a {:.1} µm, b {:.1} µm; Hertz pressure {:.3} GPa; load {} N; approach {:.2} µm",
+                "Contact     {}: a {} µm, b {} µm; Hertz pressure {:.3} GPa; load {} N; approach {} µm",
                 if (hertz.ellipticity() - 1.0).abs() < 1e-9 {
                     "circular"
                 } else {
                     "elliptical"
                 },
-                hertz.a_m * 1e6,
-                hertz.b_m * 1e6,
+                fixed(hertz.a_m * 1e6, 1),
+                fixed(hertz.b_m * 1e6, 1),
                 hertz.p_max_pa * 1e-9,
                 significant(self.force_n),
-                hertz.approach_m * 1e6
+                fixed(hertz.approach_m * 1e6, 2)
             )?,
         }
         let [u_1, u_2] = self.speeds_m_s;
@@ -82,6 +83,11 @@ impl Plan {
             if let Some(wave) = wave {
                 writeln!(f, "Body {}      {}", index + 1, wave_text(wave))?;
             }
+            let lines = self.maps[index].iter().flat_map(MapReport::lines);
+            for (n, line) in lines.enumerate() {
+                let name = if n == 0 { "Its map" } else { "" };
+                writeln!(f, "{name:<12}{line}")?;
+            }
         }
         Ok(())
     }
@@ -93,7 +99,7 @@ impl Plan {
         let m = film.groups.m;
         write!(
             f,
-            "Film        M {}, L {:.2}, αp_h {:.1}; smooth by formula: central {:.1} nm ",
+            "Film        M {}, L {:.2}, αp_h {:.1}; smooth by formula: central {} nm ",
             if m < 10.0 {
                 significant(m)
             } else {
@@ -101,7 +107,7 @@ impl Plan {
             },
             film.groups.l,
             film.groups.alpha_p_hertz,
-            film.central_m * 1e9
+            fixed(film.central_m * 1e9, 1)
         )?;
         let source = match film.others {
             OtherFilms::HamrockDowson {
@@ -110,17 +116,17 @@ impl Plan {
             } => {
                 writeln!(
                     f,
-                    "(Nijenbanning), {:.1} nm (Hamrock-Dowson), minimum {:.1} nm (Hamrock-Dowson)",
-                    central_m * 1e9,
-                    minimum_m * 1e9
+                    "(Nijenbanning), {} nm (Hamrock-Dowson), minimum {} nm (Hamrock-Dowson)",
+                    fixed(central_m * 1e9, 1),
+                    fixed(minimum_m * 1e9, 1)
                 )?;
                 "Hamrock-Dowson"
             }
             OtherFilms::DowsonHigginson { minimum_m } => {
                 writeln!(
                     f,
-                    "(Moes), minimum {:.1} nm (Dowson-Higginson)",
-                    minimum_m * 1e9
+                    "(Moes), minimum {} nm (Dowson-Higginson)",
+                    fixed(minimum_m * 1e9, 1)
                 )?;
                 "Moes"
             }
@@ -139,20 +145,20 @@ impl Plan {
         match self.kind {
             ContactKind::Line => writeln!(
                 f,
-                "Grid        {n} nodes, x {} a to {} a; dx {:.2} µm; drawn as {LINE_ROWS} equal rows",
+                "Grid        {n} nodes, x {} a to {} a; dx {} µm; drawn as {LINE_ROWS} equal rows",
                 significant(domain.x_min_a),
                 significant(domain.x_max_a),
-                self.dx_m * 1e6,
+                fixed(self.dx_m * 1e6, 2),
                 n = domain.nodes
             )?,
             ContactKind::Point => writeln!(
                 f,
-                "Grid        {n} x {n} nodes, x {} a to {} a, y ±{} b; dx {:.2} µm, dy {:.2} µm",
+                "Grid        {n} x {n} nodes, x {} a to {} a, y ±{} b; dx {} µm, dy {} µm",
                 significant(domain.x_min_a),
                 significant(domain.x_max_a),
                 significant(domain.y_half_b),
-                self.dx_m * 1e6,
-                self.dy_m * 1e6,
+                fixed(self.dx_m * 1e6, 2),
+                fixed(self.dy_m * 1e6, 2),
                 n = domain.nodes
             )?,
         }
@@ -208,13 +214,13 @@ impl Plan {
         }
         if let Some(stress) = self.stress {
             lines.push(format!(
-                "{} in the plane y = 0, {} depths down to {:.0} µm, every step",
+                "{} in the plane y = 0, {} depths down to {} µm, every step",
                 match self.kind {
                     ContactKind::Point => "stress",
                     ContactKind::Line => "plane-strain stress",
                 },
                 stress.depths,
-                stress.depth_max_m * 1e6
+                fixed(stress.depth_max_m * 1e6, 0)
             ));
         }
         if let Some(life) = &self.life {
@@ -324,8 +330,8 @@ fn wave_text(wave: &WavePlan) -> String {
         }
     };
     format!(
-        "amplitude {:.0} nm; along x {}, along y {}",
-        wave.amplitude_m * 1e9,
+        "amplitude {}; along x {}, along y {}",
+        length(wave.amplitude_m),
         along(wave.nodes[0]),
         along(wave.nodes[1])
     )

@@ -27,7 +27,8 @@ pub use crate::math::grid::Symmetry;
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
 use crate::scene::{
-    ContactKind, EyringFlow, MINIMUM_HARDNESS, Order, OrderAsked, Record, Scene, StressMeasure,
+    ContactKind, EyringFlow, MINIMUM_HARDNESS, MapReport, Order, OrderAsked, Record, Scene,
+    StressMeasure,
 };
 
 /// Everything that is decided before the first step.
@@ -73,6 +74,8 @@ pub struct Plan {
     pub length_a: f64,
     /// The waves of body 1 and 2; `None`: smooth.
     pub waves: [Option<WavePlan>; 2],
+    /// The height maps of body 1 and 2; `None`: it has none.
+    pub maps: [Option<MapReport>; 2],
     /// Normal deflection by tangential traction, u^s; `None`: the bodies are alike.
     pub traction_deflection: Option<TractionDeflection>,
     /// Pressure at which the softer body flows, Pa, and which bodies do; `None`: both stay elastic.
@@ -260,6 +263,7 @@ impl Plan {
         let step_m = scene.time.step_nodes * dx_m;
         let waves = surfaces::plan(scene, [dx_m, dy_m], (step_m, order), &mut warnings)?;
         let time_dependence = decide::time_dependence(scene);
+        warnings.extend(surfaces::doubts(scene, hertz.a_m.min(hertz.b_m)));
         warnings.extend(decide::step_warning(scene, film.as_ref(), &waves, order));
         let steps_per_passage = (4.0 * hertz.a_m / step_m).round().max(1.0) as u64;
         let steps = match time_dependence {
@@ -289,6 +293,7 @@ impl Plan {
             passage_a: PASSAGE_A,
             length_a: scene.time.passages * PASSAGE_A,
             waves,
+            maps: scene.map_reports(),
             traction_deflection: decide::traction_deflection(scene),
             yielding: scene.hardness_pa().map(|pa| (pa, scene.softer())),
             stress: decide::stress_plan(scene, &hertz, &mut warnings),

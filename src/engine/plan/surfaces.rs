@@ -1,7 +1,8 @@
 //! What the grid and the time step make of the waves on each body.
 
 use super::{PlanError, Warning};
-use crate::scene::{Order, Scene, Surface};
+use crate::math::number::fixed;
+use crate::scene::{Doubt, Order, Scene, Surface};
 
 /// The waves of one body on the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +33,18 @@ impl WavePlan {
         let gaps = phases.windows(2).map(|pair| pair[1] - pair[0]);
         gaps.fold(around, f64::max)
     }
+}
+
+/// What is doubtful of the surfaces of a scene whose contact has that half-width, the narrower one.
+pub(super) fn doubts(scene: &Scene, half_width_m: f64) -> impl Iterator<Item = Warning> {
+    let of = move |surface: &Surface, body: u8| {
+        let amplitude = Doubt::of_amplitude(surface.amplitude_m(), half_width_m);
+        let all = std::iter::once(amplitude).chain(surface.map_doubts());
+        let warning = move |doubt| Warning::Surface { body, doubt };
+        all.flatten().map(warning).collect::<Vec<_>>()
+    };
+    let [one, two] = scene.surfaces();
+    of(one, 1).into_iter().chain(of(two, 2))
 }
 
 /// Fewest nodes of a wave: below it the sampled wave is not the one that was asked for.
@@ -107,13 +120,20 @@ fn check_resolved(body: u8, surface: &Surface, spacing_m: [f64; 2]) -> Result<()
     } = surface
     else {
         let wave_m = (1.0 / k_x).min(1.0 / k_y);
+        let carries = |[k_x, k_y]: [f64; 2]| {
+            (1.0 / (k_x * spacing_m[0])).min(1.0 / (k_y * spacing_m[1])) >= NODES_MIN
+        };
+        let cure = surface
+            .blame(carries)
+            .unwrap_or_else(|| "smooth the map".to_owned());
         return Err(PlanError::Refused {
             key: format!("body_{body}.surface.file"),
             value: format!("a map whose shortest significant wave is {wave_m:.3e} m"),
             allowed: format!(
-                "waves of at least 4 nodes (now {nodes:.1} on a spacing of {:.2} by {:.2} µm): smooth the map, or use more grid.nodes",
-                spacing_m[0] * 1e6,
-                spacing_m[1] * 1e6,
+                "waves of at least 4 nodes (now {} on a spacing of {} by {} µm): {cure}, or use more grid.nodes",
+                fixed(nodes, 1),
+                fixed(spacing_m[0] * 1e6, 2),
+                fixed(spacing_m[1] * 1e6, 2),
             ),
         });
     };
@@ -134,10 +154,11 @@ fn check_resolved(body: u8, surface: &Surface, spacing_m: [f64; 2]) -> Result<()
         key: format!("body_{body}.surface.{name}"),
         value: format!("{value_m:e} m"),
         allowed: format!(
-            "at least {:.3e} m (4 nodes; now {nodes:.1} on a spacing of {:.2} by {:.2} µm), or more grid.nodes",
+            "at least {:.3e} m (4 nodes; now {} on a spacing of {} by {} µm), or more grid.nodes",
             value_m * NODES_MIN / nodes,
-            spacing_m[0] * 1e6,
-            spacing_m[1] * 1e6,
+            fixed(nodes, 1),
+            fixed(spacing_m[0] * 1e6, 2),
+            fixed(spacing_m[1] * 1e6, 2),
         ),
     })
 }

@@ -3,7 +3,8 @@
 use thiserror::Error;
 
 use super::Valleys;
-use crate::scene::ContactKind;
+use crate::math::number::fixed;
+use crate::scene::{ContactKind, Doubt};
 
 /// A stage that is left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,10 +40,18 @@ pub enum Warning {
         /// Point or line.
         kind: ContactKind,
     },
+    /// A surface is not what it should be.
+    #[error("body {body}: {doubt}")]
+    Surface {
+        /// Body, 1 or 2.
+        body: u8,
+        /// What is doubtful.
+        doubt: Doubt,
+    },
     /// Crests can touch at the edge of the domain.
     #[error(
-        "crests, {:.3} µm high together, can touch at the edge of the domain, where contact is cut off; use a higher load or a wider grid (grid.x_min_a, grid.x_max_a, grid.y_half_a)",
-        1e6 * crests_m
+        "crests, {} µm high together, can touch at the edge of the domain, where contact is cut off; use a higher load or a wider grid (grid.x_min_a, grid.x_max_a, grid.y_half_a)",
+        fixed(1e6 * crests_m, 3)
     )]
     CrestsAtEdge {
         /// Heights of both surfaces' crests together, m.
@@ -98,8 +107,8 @@ pub enum Warning {
     },
     /// The film by formula is no film.
     #[error(
-        "film by formula {:.2} nm, less than one layer of molecules ({:.1} nm): {}",
-        1e9 * film_m,
+        "film by formula {} nm, less than one layer of molecules ({:.1} nm): {}",
+        fixed(1e9 * film_m, 2),
         1e9 * super::MOLECULE_M,
         match valleys {
             Valleys::Open => "solved dry",

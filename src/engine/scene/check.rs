@@ -270,13 +270,17 @@ fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
                     allowed: "a height map that has been read (Scene::read_maps)".to_owned(),
                 });
             }
-            let slope = surface.rq_m() * std::f64::consts::TAU * k_x.max(k_y);
+            let steepness =
+                |[k_x, k_y]: [f64; 2]| surface.rq_m() * std::f64::consts::TAU * k_x.max(k_y);
+            let slope = steepness([k_x, k_y]);
+            let blame = surface.blame(|waves| steepness(waves) <= SLOPE_MAX);
             return if slope > SLOPE_MAX {
                 Err(SceneError::value(
                     joined(path, "amplitude_m"),
                     format!("{} m", short(amplitude_m)),
                     format!(
-                        "a slope 2 pi Rq/W of at most {SLOPE_MAX}; this one is {slope:.2}, W the shortest significant wave"
+                        "a slope 2 pi Rq/W of at most {SLOPE_MAX}; this one is {slope:.2}, W the shortest significant wave{}",
+                        blame.map_or_else(String::new, |cause| format!("; {cause}"))
                     ),
                 ))
             } else {

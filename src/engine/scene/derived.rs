@@ -143,7 +143,7 @@ impl Surface {
             } => {
                 let nx = map.as_ref()?.nx();
                 match edge {
-                    MapEdge::Periodic => Some((nx as f64 * pixel_m, 0.0)),
+                    MapEdge::Periodic => Some((nx as f64 * side_m(*pixel_m), 0.0)),
                     MapEdge::Windowed => None,
                 }
             }
@@ -220,7 +220,7 @@ impl Surface {
         match *self {
             Self::HeightMap {
                 pixel_m, ref map, ..
-            } => map.as_ref().map_or(0.0, |map| map.crests / pixel_m),
+            } => map.as_ref().map_or(0.0, |map| map.crests / side_m(pixel_m)),
             Self::Smooth {} | Self::Sinusoid { .. } => self.wavenumbers_per_m()[0],
         }
     }
@@ -234,7 +234,8 @@ impl Surface {
             ..
         } = self
         {
-            return map.shortest.map(|pixels| 1.0 / (pixels * pixel_m));
+            let side_m = side_m(*pixel_m);
+            return map.shortest.map(|pixels| 1.0 / (pixels * side_m));
         }
         let Self::Sinusoid {
             wavelength_x_m,
@@ -282,6 +283,11 @@ impl Surface {
             false
         }
     }
+}
+
+/// Side of a pixel. NaN would show a map that has not been read, which does not validate.
+pub(crate) fn side_m(pixel_m: Option<f64>) -> f64 {
+    pixel_m.unwrap_or(f64::NAN)
 }
 
 /// Sine and cosine that are exactly 0 at the multiples of 90 degrees.

@@ -20,7 +20,7 @@ use Kind::{Choice, EitherSign, Integer, IntegerOf, Number, NumberOrInf, Switch, 
 use Need::{Defaulted, Optional, Required};
 
 use super::lubricant::{Cavitation, DensityLaw, EyringFlow, Rheology, ViscosityLaw};
-use super::model::{ContactKind, MapEdge, StressMeasure, SurfaceKind};
+use super::model::{ContactKind, MapEdge, MapLevel, MapOutliers, StressMeasure, SurfaceKind};
 use super::numerics::{ErrorSource, OrderAsked};
 
 #[rustfmt::skip]
@@ -34,9 +34,11 @@ const SURFACE: &[Key] = &[
     key("kind", "", Choice(SurfaceKind::KEYS), Required, "micro-geometry that moves with the body"),
     key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file; or builtin:NAME"),
     key("digest", "", Text(16), Optional("the file is taken as it is"), "digest of the file's numbers: a file of another is refused; written by the program"),
-    key("pixel_m", "m", Number(1e-9, 1e-2), Required, "side of a pixel"),
-    key("edge", "", Choice(MapEdge::KEYS), Defaulted, "repeated without end (mean subtracted), or once (mean of the rim subtracted, tapered to 0)"),
-    key("unit_m", "m", Number(1e-12, 1e3), Defaulted, "height that a value of 1 stands for"),
+    key("pixel_m", "m", Number(1e-9, 1e-2), Optional("as the header of the file says"), "side of a pixel; a header that says otherwise is refused"),
+    key("edge", "", Choice(MapEdge::KEYS), Defaulted, "repeated without end, or once (tapered to 0)"),
+    key("level", "", Choice(MapLevel::KEYS), Optional("plane of a windowed map; mean of a periodic one, of which a tilt whose ends do not meet is refused"), "what is taken off by least squares: plane and quadratic with the mean (windowed: mean of the rim)"),
+    key("outliers", "", Choice(MapOutliers::KEYS), Defaulted, "pixels that stand out of the 5 by 5 about them by six times the usual are kept, or become the median of those"),
+    key("unit_m", "m", Number(1e-12, 1e3), Optional("as the header of the file says, else 1"), "height that a value of 1 stands for; a header that says otherwise is refused"),
     key("start_x_m", "m", Number(-1e3, 1e3), Optional("just upstream of the domain"), "where the middle of a windowed map is at t = 0"),
     key("amplitude_m", "m", Number(0.0, 1e-4), Required, "sinusoid: A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy), peak to valley is 2 A; height map: greatest departure from its level; omitted: as in the file"),
     key("wavelength_x_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wx, at least 4 nodes; inf: longitudinal ridges"),
@@ -292,7 +294,7 @@ impl Key {
         }
         let of_map = matches!(
             self.name,
-            "file" | "digest" | "pixel_m" | "edge" | "unit_m" | "start_x_m"
+            "file" | "digest" | "pixel_m" | "edge" | "level" | "outliers" | "unit_m" | "start_x_m"
         );
         match kind.and_then(SurfaceKind::from_key) {
             Some(SurfaceKind::Smooth) => None,

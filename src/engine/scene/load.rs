@@ -211,20 +211,37 @@ impl Scene {
         for (table, body) in bodies {
             if let Surface::HeightMap {
                 file,
+                pixel_m,
                 edge,
                 unit_m,
                 digest,
+                level,
+                outliers,
                 map,
                 ..
             } = &mut body.surface
                 && map.is_none()
             {
-                let (heights, found) = height_map::read(table, folder, file, *unit_m, *edge)?;
-                if digest.as_ref().is_some_and(|digest| *digest != found) {
-                    return Err(height_map::changed(table, file, &found));
+                let asked = height_map::Asked {
+                    table,
+                    file,
+                    pixel_m: *pixel_m,
+                    unit_m: *unit_m,
+                    beyond: *edge,
+                    level: *level,
+                    outliers: *outliers,
+                };
+                let found = asked.read(folder)?;
+                if digest
+                    .as_ref()
+                    .is_some_and(|digest| *digest != found.digest)
+                {
+                    return Err(height_map::changed(table, file, &found.digest));
                 }
-                *map = Some(Arc::new(heights));
-                *digest = Some(found);
+                *map = Some(Arc::new(found.map));
+                *digest = Some(found.digest);
+                // A copy of the scene keeps what the file says now.
+                (*pixel_m, *unit_m) = (Some(found.pixel_m), Some(found.unit_m));
                 if !file.starts_with(presets::BUILTIN)
                     && let Ok(absolute) = std::path::absolute(folder.join(&*file))
                     && let Some(text) = absolute.to_str()

@@ -16,12 +16,14 @@ mod life;
 mod life_keys;
 mod load;
 mod lubricant;
+mod map_report;
 mod model;
 mod numerics;
 pub mod presets;
 mod shape;
 mod tooth;
 
+pub(crate) use derived::side_m;
 pub use error::SceneError;
 pub use knob::{Knob, KnobLine, RampRate, Reach, Steps};
 pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread};
@@ -29,9 +31,10 @@ pub use load::Override;
 pub use lubricant::{
     Cavitation, DensityLaw, EyringFlow, Friction, Lubricant, Rheology, ViscosityLaw,
 };
+pub use map_report::{Doubt, MapReport};
 pub use model::{
-    Body, Contact, ContactKind, Event, GridAsked, Load, MapEdge, Motion, Record, Scene, Stress,
-    StressMeasure, Surface, SurfaceKind,
+    Body, Contact, ContactKind, Event, GridAsked, Load, MapEdge, MapLevel, MapOutliers, Motion,
+    Record, Scene, Stress, StressMeasure, Surface, SurfaceKind,
 };
 pub use numerics::{ErrorSource, Numerics, Order, OrderAsked, Time};
 pub use shape::MINIMUM_HARDNESS;

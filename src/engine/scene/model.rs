@@ -13,6 +13,7 @@ use crate::closed_set;
 use crate::physics::height_map::HeightMap;
 pub use crate::physics::height_map::MapEdge;
 pub use crate::physics::hertz::ContactKind;
+pub use crate::physics::levelling::{MapLevel, MapOutliers};
 
 /// A whole scene: what the user asks for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -142,14 +143,21 @@ pub enum Surface {
         /// `.npy` or `.csv`; relative paths are relative to the scene file, and become absolute when the
         /// scene is read.
         file: String,
-        /// Side of a pixel, m.
-        pixel_m: f64,
+        /// Side of a pixel, m; `None`: as the file's header says, and filled in when the file is read.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pixel_m: Option<f64>,
         /// What lies beyond the map.
         #[serde(default)]
         edge: MapEdge,
-        /// Height that a value of 1 stands for, m.
-        #[serde(default = "one")]
-        unit_m: f64,
+        /// Height that a value of 1 stands for, m; `None`: as the file's header says, else 1; filled in likewise.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        unit_m: Option<f64>,
+        /// What is taken off; `None`: as the edge says ([`MapEdge::usual_level`]), and a periodic map must then close.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        level: Option<MapLevel>,
+        /// What becomes of outlying pixels.
+        #[serde(default)]
+        outliers: MapOutliers,
         /// Maximum departure from the map's level, m; `None`: as in the file.
         #[serde(skip_serializing_if = "Option::is_none")]
         amplitude_m: Option<f64>,
@@ -164,10 +172,6 @@ pub enum Surface {
         #[serde(skip)]
         map: Option<Arc<HeightMap>>,
     },
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 fn infinite() -> f64 {

@@ -3,6 +3,8 @@
 //! ```text
 //! beyond_yield   p_max > H or σ_eff > Y of the body that carries less, as far as it is known        greatest of the last passage
 //! still_yielding  more than 0.1 % of all flow of surfaces in the last passage
+//! amplitude_doubtful  0 < A < 0.1 nm, or A > a/10                              at the knobs' present values
+//! map_doubtful   the best plane, or outlying pixels, of a height map are left in
 //! mesh_film      error of the smooth central film by the mesh > 5 %             at the knobs' present values
 //! short_domain   the same by the edges of the domain > 1 %                      likewise
 //! model_range    greatest over least life of the choices > 2
@@ -16,7 +18,7 @@ use super::{Frame, Grounds, LifeEstimate, Metrics, Rhythm};
 use crate::math::number::sig;
 use crate::physics::strength::Strength;
 use crate::plan::{EDGES_WORTH_A_WORD, MOLECULE_M};
-use crate::scene::StressMeasure;
+use crate::scene::{Doubt, StressMeasure};
 
 /// Kind of caution, as scripts read it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -28,6 +30,10 @@ pub enum CautionCode {
     BeyondYield,
     /// Surfaces still flow at their hardness.
     StillYielding,
+    /// A surface lower than an atom, or as high as the contact is wide.
+    AmplitudeDoubtful,
+    /// A height map is tilted, or has outlying pixels.
+    MapDoubtful,
     /// No oil flows.
     Dry,
     /// The film is thinner than a layer of oil molecules.
@@ -87,6 +93,14 @@ pub(super) fn list(m: &Metrics, grounds: &Grounds) -> Vec<Caution> {
     say(CautionCode::BeyondYield, pressure_beyond(grounds));
     say(CautionCode::BeyondYield, stress_beyond(grounds));
     say(CautionCode::StillYielding, still_yielding(grounds));
+    for (k, amplitude_m) in [m.amplitude_1_m, m.amplitude_2_m].into_iter().enumerate() {
+        let text = |doubt: Doubt| format!("body {}: {doubt}", k + 1);
+        let amplitude = Doubt::of_amplitude(amplitude_m, grounds.half_width_m);
+        say(CautionCode::AmplitudeDoubtful, amplitude.map(text));
+        for doubt in grounds.maps[k] {
+            say(CautionCode::MapDoubtful, doubt.map(text));
+        }
+    }
     say(CautionCode::Dry, dry(grounds));
     say(CautionCode::FilmBelowMolecule, below_molecule(grounds));
     say(CautionCode::MeshFilm, mesh_film(grounds));
@@ -334,6 +348,7 @@ mod tests {
             measure: Some(StressMeasure::VonMises),
             strength: [Some(HARDENED_STEEL); 2],
             film_m: Some(1e-7),
+            half_width_m: 2e-4,
             flows: true,
             mesh_film: Some(0.02),
             has_life: true,
@@ -355,11 +370,12 @@ mod tests {
     #[test]
     fn each_ground_has_its_caution_with_its_number() {
         use CautionCode::{
-            AboveSmooth, BeyondYield, Dry, FilmBelowMolecule, MeshFilm, ModelRange, NoLife,
-            NotConverged, NotSettled, ShortDomain, StandingBody, StillYielding, StrengthUnknown,
+            AboveSmooth, AmplitudeDoubtful, BeyondYield, Dry, FilmBelowMolecule, MapDoubtful,
+            MeshFilm, ModelRange, NoLife, NotConverged, NotSettled, ShortDomain, StandingBody,
+            StillYielding, StrengthUnknown,
         };
         type Spoil = fn(&mut Metrics, &mut Grounds);
-        let table: [(CautionCode, &str, Spoil); 16] = [
+        let table: [(CautionCode, &str, Spoil); 20] = [
             (NotConverged, "3 of 100", |_, g| g.steps_not_converged = 3),
             (BeyondYield, "13 GPa", |_, g| g.p_max_greatest_pa = 13e9),
             (BeyondYield, "7.5 GPa", |_, g| {
@@ -378,6 +394,29 @@ mod tests {
                 // At the hardness, which is not beyond it.
                 g.p_max_greatest_pa = 6.9e9;
                 g.yielded_last_share = Some(0.12);
+            }),
+            (
+                AmplitudeDoubtful,
+                "body 1: its amplitude of 2.00e-4 nm",
+                |m, _| {
+                    m.amplitude_1_m = 2e-13;
+                },
+            ),
+            (
+                AmplitudeDoubtful,
+                "21.0 µm is more than a tenth",
+                |m, _| {
+                    m.amplitude_2_m = 2.1e-5;
+                },
+            ),
+            (MapDoubtful, "body 2: its best plane, 93.0 %", |_, g| {
+                g.maps[1][0] = Some(Doubt::Tilt { share: 0.93 });
+            }),
+            (MapDoubtful, "body 1: 1 outlying pixel left in", |_, g| {
+                g.maps[0][1] = Some(Doubt::Outliers {
+                    count: 1,
+                    max_over_sq: 31.9,
+                });
             }),
             (Dry, "no lubricant", |_, g| {
                 (g.film_m, g.flows, g.mesh_film) = (None, false, None);

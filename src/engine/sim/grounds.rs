@@ -1,7 +1,7 @@
 //! What cautions are drawn from beside the scalars of a step.
 
 use crate::physics::strength::Strength;
-use crate::scene::StressMeasure;
+use crate::scene::{Doubt, StressMeasure};
 
 /// What cautions are drawn from beside the scalars of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -34,4 +34,8 @@ pub struct Grounds {
     pub hardness_pa: Option<f64>,
     /// Part of all that has flowed that did so in the last passage (or period); `None`: nothing has.
     pub yielded_last_share: Option<f64>,
+    /// The narrower half-width of the contact at the load of now, m.
+    pub half_width_m: f64,
+    /// What is doubtful of the maps of body 1 and 2.
+    pub maps: [[Option<Doubt>; 2]; 2],
 }

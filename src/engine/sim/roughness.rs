@@ -14,7 +14,7 @@ use super::motion::BodyTravel;
 use super::scaling::Heading;
 use crate::math::grid::Grid;
 use crate::physics::height_map::{HeightMap, MapEdge};
-use crate::scene::Surface;
+use crate::scene::{Surface, side_m};
 
 /// One plane wave of a surface.
 #[derive(Debug, Clone, Copy)]
@@ -145,7 +145,8 @@ impl Relief {
             } => map.as_ref().map(|map| {
                 let start = start_x_m.map(|x_m| heading.sign() * x_m / a_m);
                 // Columns that run the other way are a pixel of the opposite sign.
-                let pixels = [heading.sign() * pixel_m / a_m, pixel_m / a_m];
+                let side_m = side_m(*pixel_m);
+                let pixels = [heading.sign() * side_m / a_m, side_m / a_m];
                 Self::Map(GriddedMap::new(grid, map, pixels, start))
             }),
         }
@@ -324,9 +325,11 @@ mod tests {
             let map = Arc::new(HeightMap::new(n, &heights, beyond).expect("it has heights"));
             let surface = Surface::HeightMap {
                 file: String::new(),
-                pixel_m: 0.05e-3,
+                pixel_m: Some(0.05e-3),
                 edge: crate::scene::MapEdge::Periodic,
-                unit_m: 1.0,
+                unit_m: None,
+                level: None,
+                outliers: crate::scene::MapOutliers::Keep,
                 amplitude_m: None,
                 start_x_m: Some(-0.5e-3),
                 digest: None,

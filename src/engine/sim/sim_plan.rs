@@ -260,6 +260,7 @@ fn grounds_of(scene: &Scene) -> Grounds {
             _ => strength::by_young(body.young_pa),
         }),
         hardness_pa: scene.hardness_pa(),
+        maps: scene.surfaces().map(Surface::map_doubts),
         has_life: scene.life.is_some(),
         by_damage: (scene.life.as_ref()).is_some_and(|life| life.cycles == CycleBasis::Damage),
         ..Grounds::default()

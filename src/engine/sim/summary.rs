@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{Caution, LubricationRegime, Rhythm, Stats};
+use crate::scene::MapReport;
 
 /// Summary of a run, SI. Means are over the last passage of 4 a, or the
 /// whole periods that fit into it (one period where it is longer); what was not computed is `None`
@@ -195,6 +196,12 @@ pub struct Summary {
     /// Seconds until the first mesh had a life; `None`: there is none.
     #[serde(default)]
     pub first_life_s: Option<f64>,
+    /// The height map of body 1; left out where it has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map_body_1: Option<MapReport>,
+    /// Same of body 2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map_body_2: Option<MapReport>,
     /// Quantities of the catalogue that are shown by themselves, summed up as it says, by their keys there.
     #[serde(flatten)]
     pub by_itself: BTreeMap<String, Option<f64>>,

@@ -146,6 +146,8 @@ mod tests {
             frames: (0..n).map(frame).collect(),
             period_s: 2e-3,
             state: None,
+            is_last: true,
+            ground: None,
         };
         Replay::new(Arc::new(settled)).expect("it moves")
     }
@@ -184,6 +186,8 @@ mod tests {
             frames: vec![Arc::default()],
             period_s: 0.0,
             state: None,
+            is_last: true,
+            ground: None,
         };
         assert!(Replay::new(Arc::new(still)).is_none());
     }

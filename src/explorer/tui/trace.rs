@@ -358,6 +358,8 @@ mod tests {
             frames: (0..steps).map(frame).collect(),
             period_s,
             state: None,
+            is_last: true,
+            ground: None,
         }
     }
 

@@ -237,7 +237,7 @@ pub(super) fn measured(link: &PageLink, steps: u64) -> Result<String, String> {
     let (mut run, _) = start(&link.scene, &link.name, nodes, Ending::Steps(steps))?;
     while matches!(run.session.turn(), LoopTurn::Stepped) {}
     let counters = run.session.stats();
-    let counters = serde_json::to_string(counters).map_err(|e| e.to_string())?;
+    let counters = serde_json::to_string(&counters).map_err(|e| e.to_string())?;
     Ok(format!("{}{counters}", run.rows.csv()))
 }
 

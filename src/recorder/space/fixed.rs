@@ -8,7 +8,7 @@ use crate::entities::space::{BODIES, FILM, LEGEND, POINT, SLICE, SPACE, SPOTS, U
 use crate::geometry::Geometry;
 use crate::mesh::{COARSE, FINE, MeshWindow, triangles};
 use crate::stream::{Holds, Stream};
-use asperity_engine::math::number::{GPA, MM, plain, ticks};
+use asperity_engine::math::number::{GPA, MM, fixed, plain, ticks};
 use asperity_engine::sim::{Frame, StressSlice};
 use asperity_picture::CONTACT;
 
@@ -118,10 +118,10 @@ impl Parts {
     pub(crate) fn note(&self) -> String {
         format!(
             "In the 3-D view heights of film and roughness are drawn {} times too high against \
-             lengths and depths, the film is cut off at {:.2} µm, and the bodies are drawn apart. \
+             lengths and depths, the film is cut off at {} µm, and the bodies are drawn apart. \
              The film is grey-blue where it carries less than 6 % of the colour range.",
             plain(self.exaggeration),
-            1e3 * self.levels.film_cap / self.exaggeration
+            fixed(1e3 * self.levels.film_cap / self.exaggeration, 2)
         )
     }
 

@@ -12,6 +12,7 @@ use std::collections::BTreeMap;
 use super::error::SweepError;
 use super::path;
 use super::spec::Sweep;
+use asperity_engine::math::number::fixed;
 use asperity_engine::scene::{Event, Scene};
 
 impl Sweep {
@@ -64,9 +65,9 @@ impl Sweep {
                     ("motion.slide_roll".to_owned(), scene.motion.slide_roll),
                 ]),
                 caption: format!(
-                    "{:.1} mm from A: S = {:.2}, U = {:.2} m/s, {:.2} GPa, {} the load on this pair; half-width {:.2} \
+                    "{} mm from A: S = {:.2}, U = {:.2} m/s, {:.2} GPa, {} the load on this pair; half-width {:.2} \
                      times the tooth's",
-                    self.path[k].values[0].1 * 1e3,
+                    fixed(self.path[k].values[0].1 * 1e3, 1),
                     scene.motion.slide_roll,
                     scene.motion.entrainment_m_s,
                     scene.hertz().p_max_pa * 1e-9,

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::case::{JUMP_AT, Ready};
+use asperity_engine::math::number::fixed;
 use asperity_engine::plan::{TimeDependence, mesh_error};
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::{Frame, Simulation, Stage, Stats};
@@ -284,8 +285,8 @@ impl TrialWatch {
         }
         if let Some(overlap) = self.overlap {
             return TrialEnd::Quiet(format!(
-                "surfaces overlap by {:.2} nm at x = {:.2} a, y = {:.2} b{}",
-                overlap.depth_nm,
+                "surfaces overlap by {} nm at x = {:.2} a, y = {:.2} b{}",
+                fixed(overlap.depth_nm, 2),
                 overlap.at[0],
                 overlap.at[1],
                 if overlap.at_edge {

@@ -78,8 +78,10 @@ pub(super) fn grounds(plan: &SimPlan, state: &State) -> Grounds {
     } else {
         measured.or(by_rule)
     };
+    let hertz = &plan.decided.hertz;
     let mut grounds = Grounds {
         steps: state.step,
+        half_width_m: size * hertz.a_m.min(hertz.b_m),
         film_m: film.map(|film| film.central_m),
         flows,
         mesh_film: mesh_film.filter(|_| flows),

@@ -26,6 +26,8 @@ pub(super) fn summary(sim: View, stats: &Stats) -> Summary {
         p_hertz_pa: hertz.p_max_pa * size,
         cautions: caution::list(m, &grounds(sim.plan, sim.state)),
         counters: *stats,
+        map_body_1: sim.plan.decided.maps[0].clone(),
+        map_body_2: sim.plan.decided.maps[1].clone(),
         pit_body_1: pit(sim, BodyId::One),
         pit_body_2: pit(sim, BodyId::Two),
         cycles_end_depth_1_m: cycles_end(sim, BodyId::One),

@@ -59,6 +59,8 @@ fn name(caution: &Caution) -> &'static str {
         CautionCode::NotConverged => "not converged",
         CautionCode::BeyondYield => "beyond yield",
         CautionCode::StillYielding => "still yields",
+        CautionCode::AmplitudeDoubtful => "odd amplitude",
+        CautionCode::MapDoubtful => "odd map",
         CautionCode::Dry => "dry",
         CautionCode::FilmBelowMolecule => "film < molecule",
         CautionCode::MeshFilm => "coarse mesh",

@@ -1,0 +1,287 @@
+//! The ladder of meshes against runs on the last mesh alone, in the middle of it, and under knobs that are turned.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use asperity_engine::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::{Frame, Knob, Summary};
+use asperity_session::run::{
+    Checkpoint, Command, Companion, End, Ending, HandTurn, Ladder, Outcome, Request, Session,
+    Watcher,
+};
+
+fn scene(preset: &str, sets: &[&str]) -> Arc<Scene> {
+    let sets = sets.iter().chain(&["record=none"]);
+    let sets: Vec<Override> = sets.map(|set| set.parse().unwrap()).collect();
+    Arc::new(Scene::load_with(preset, &sets).unwrap())
+}
+
+fn request(scene: &Arc<Scene>, ending: Ending, watchers: Vec<Watcher>) -> Request {
+    Request {
+        name: String::new(),
+        scene: Arc::clone(scene),
+        plan: Plan::new(scene).unwrap(),
+        threads: 2,
+        watchers,
+        ending,
+    }
+}
+
+fn outcome(preset: &str, sets: &[&str], ladder: bool) -> Summary {
+    let ladder_is = format!("numerics.ladder={ladder}");
+    let scene = scene(preset, &[sets, &[&*ladder_is]].concat());
+    let outcome = Session::start(request(&scene, Ending::Passages, Vec::new()));
+    let mut outcome = outcome.unwrap().join().unwrap();
+    assert!(matches!(outcome.end, End::Done), "{preset} {sets:?}");
+    let mut summary = outcome.summary.take().unwrap();
+    if !ladder {
+        let plan = Plan::new(&scene).unwrap();
+        let companion = Companion::start(&scene, &plan, 2).unwrap();
+        companion.compare(&mut summary).unwrap();
+    }
+    summary
+}
+
+/// Numbers that may differ by what both say of their errors, and by this share where they say less: what a mean over other
+/// phases of waves without a common period may move by.
+const SHARE: f64 = 0.002;
+
+/// What is apart by more than both bands.
+fn apart(preset: &str, sets: &[&str]) -> Vec<String> {
+    let (climbed, alone) = (outcome(preset, sets, true), outcome(preset, sets, false));
+    assert!(climbed.rungs.len() > 1, "{preset} {sets:?}");
+    let mut apart = Vec::new();
+    let mut compare = |name: &str, one: f64, other: f64, errors: [Option<f64>; 2]| {
+        let most = errors.into_iter().flatten().sum::<f64>() + SHARE * other.abs();
+        let off = (one - other).abs();
+        println!("{preset} {sets:?} {name}: {one:.6e} {other:.6e}, off {off:.1e} of {most:.1e}");
+        if off.is_nan() || off > most {
+            apart.push(format!("{preset} {sets:?} {name}: {one:e} {other:e}"));
+        }
+    };
+    let (one, two) = (&climbed, &alone);
+    let central = [one.error_h_central_m, two.error_h_central_m];
+    compare("central film", one.h_central_m, two.h_central_m, central);
+    let least = [one.error_h_min_m, two.error_h_min_m];
+    compare("least film", one.h_min_m, two.h_min_m, least);
+    let most = [one.error_p_max_pa, two.error_p_max_pa];
+    compare("maximum pressure", one.p_max_pa, two.p_max_pa, most);
+    if let (Some(one), Some(two)) = (one.life_relative, two.life_relative) {
+        let errors = [climbed.error_ln_life, alone.error_ln_life];
+        compare("ln life", one.ln(), two.ln(), errors);
+    }
+    apart
+}
+
+/// What is run always: a point, a line, a dry contact, one that yields, unlike bodies, S = 0, a steady one.
+const CASES: [(&str, &[&str]); 7] = [
+    ("mtm_ball_on_disc", &[]),
+    ("fzg_pitch_point", &["grid.nodes=129"]),
+    ("twin_disc", &["lubricant=none"]),
+    (
+        "twin_disc",
+        &["body_1.hardness_pa=4e9", "body_2.hardness_pa=4e9"],
+    ),
+    ("mtm_ball_on_disc", &["body_1.young_pa=7e10"]),
+    ("micropitting_rig", &["motion.slide_roll=0"]),
+    (
+        "ball_bearing",
+        &[
+            "body_1.surface.wavelength_x_m=inf",
+            "body_1.surface.wavelength_y_m=1e-4",
+            "body_2.surface.kind=smooth",
+        ],
+    ),
+];
+
+#[test]
+fn the_last_mesh_is_what_a_run_on_it_alone_is() {
+    let mut found = Vec::new();
+    for (preset, sets) in CASES {
+        found.extend(apart(preset, sets));
+    }
+    assert!(found.is_empty(), "{found:#?}");
+}
+
+#[test]
+#[ignore = "minutes: every preset as it is"]
+fn in_every_preset_too() {
+    let mut found = Vec::new();
+    for preset in asperity_engine::scene::presets::all() {
+        let preset = preset.name;
+        found.extend(apart(preset, &[]));
+    }
+    assert!(found.is_empty(), "{found:#?}");
+}
+
+/// A ladder of three small meshes with long waves.
+const SMALL: [&str; 8] = [
+    "grid.nodes=129",
+    "time.passages=0.3",
+    "body_1.surface.wavelength_x_m=5e-4",
+    "body_2.surface.wavelength_x_m=5e-4",
+    "body_2.surface.wavelength_y_m=5e-4",
+    "life.damage_map=off",
+    "stress.depths=8",
+    "numerics.order=second",
+];
+
+/// Frames of a run.
+#[derive(Debug, Default, Clone)]
+struct Frames(Arc<Mutex<Vec<(u64, f64, usize, Vec<f32>)>>>);
+
+impl Observer for Frames {
+    fn begin(&mut self, _: &RunContext) -> Result<(), ObserveError> {
+        Ok(())
+    }
+    fn event(&mut self, _: &RunEvent) -> Result<(), ObserveError> {
+        Ok(())
+    }
+    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
+        let row = (
+            frame.step,
+            frame.time_s,
+            frame.nx,
+            frame.pressure_pa.clone(),
+        );
+        self.0.lock().unwrap().push(row);
+        Ok(())
+    }
+    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
+        Ok(ObserverReport::default())
+    }
+}
+
+fn watched(frames: &Frames) -> Vec<Watcher> {
+    vec![Watcher::new("frames", Box::new(frames.clone()), 1)]
+}
+
+/// Numbers of a summary but for its times.
+fn untimed(outcome: &Outcome) -> Summary {
+    let mut summary = outcome.summary.clone().unwrap();
+    (summary.wall_s, summary.steps_per_s, summary.first_life_s) = (0.0, None, None);
+    for rung in &mut summary.rungs {
+        rung.seconds = 0.0;
+    }
+    summary
+}
+
+#[test]
+fn a_run_that_is_stopped_on_any_mesh_goes_on_bit_for_bit() {
+    let scene = scene("demonstration_quick", &SMALL);
+    let plan = Plan::new(&scene).unwrap();
+    let n_meshes = Ladder::of(&scene, &plan).meshes().len();
+    assert_eq!(n_meshes, 2);
+    let whole = Frames::default();
+    let run = Session::start(request(&scene, Ending::Passages, watched(&whole))).unwrap();
+    let whole_outcome = run.join().unwrap();
+    let mut meshes = std::collections::BTreeSet::new();
+    // By the clock: wherever it is stopped it must go on alike, and one of the stops falls on each mesh.
+    for wait_ms in [0, 20, 60, 120, 200, 300, 450, 700] {
+        let first = Frames::default();
+        let session = Session::start(request(&scene, Ending::Passages, watched(&first))).unwrap();
+        std::thread::sleep(Duration::from_millis(wait_ms));
+        session.handle.send(Command::Stop);
+        let stopped = session.join().unwrap();
+        let Some(checkpoint) = stopped.checkpoint else {
+            continue;
+        };
+        let text = serde_json::to_string(&*checkpoint).unwrap();
+        let read: Checkpoint = serde_json::from_str(&text).unwrap();
+        meshes.insert(read.climb.nodes);
+        let rest = Frames::default();
+        let going_on = request(&scene, Ending::Passages, watched(&rest));
+        let outcome = Session::resume(going_on, read).unwrap().join().unwrap();
+        assert!(matches!(outcome.end, End::Done), "{:?}", outcome.end);
+        let (first, rest) = (first.0.lock().unwrap(), rest.0.lock().unwrap());
+        let both: Vec<_> = first.iter().chain(rest.iter()).cloned().collect();
+        assert!(
+            both == *whole.0.lock().unwrap(),
+            "frames after {wait_ms} ms"
+        );
+        assert_eq!(untimed(&outcome), untimed(&whole_outcome), "{wait_ms} ms");
+    }
+    assert!(meshes.len() > 1, "{meshes:?}");
+}
+
+/// Waits until the run has settled on its last mesh.
+fn settle(session: &Session) {
+    loop {
+        let settled = session.handle.settled();
+        if settled.is_some_and(|settled| settled.is_last) || session.is_finished() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+#[test]
+fn a_turned_knob_goes_down_and_the_run_is_repeated_bit_for_bit() {
+    let scene = scene("demonstration_quick", &SMALL);
+    let live = Frames::default();
+    let session = Session::start(request(&scene, Ending::OnStop, watched(&live))).unwrap();
+    settle(&session);
+    let nodes = session.handle.status().nodes;
+    session.handle.send(Command::Set(Knob::SlideRoll, 0.8));
+    // Down, and up again: first a mesh that is not the last tells what it has found there.
+    let mut told = Vec::new();
+    loop {
+        if let Some(settled) = session.handle.settled()
+            && (settled.frames[0].metrics.slide_roll - 0.8).abs() < 1e-9
+        {
+            if told.last() != Some(&settled.frames[0].nx) {
+                told.push(settled.frames[0].nx);
+            }
+            if settled.is_last {
+                break;
+            }
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert_eq!(told, [65, 129]);
+    assert_eq!((session.handle.status().nodes, nodes), (129, 129));
+    session.handle.send(Command::Stop);
+    let outcome = session.join().unwrap();
+    let live = live.0.lock().unwrap().clone();
+    assert!(
+        live.iter().all(|frame| frame.2 == 129),
+        "the last mesh alone"
+    );
+    let steps: Vec<u64> = live.iter().map(|frame| frame.0).collect();
+    assert!(
+        steps.windows(2).all(|pair| pair[1] == pair[0] + 1),
+        "{steps:?}"
+    );
+    assert!(live.windows(2).all(|pair| pair[1].1 > pair[0].1));
+    let turns: Vec<HandTurn> = outcome
+        .applied
+        .iter()
+        .filter_map(|one| one.to_repeat())
+        .collect();
+    let again = Frames::default();
+    let last = *steps.last().unwrap();
+    let repeated = request(&scene, Ending::Steps(last), watched(&again));
+    let session = Session::repeat(repeated, turns).unwrap();
+    session.join().unwrap();
+    let again = again.0.lock().unwrap();
+    assert_eq!(again.len(), live.len());
+    assert!(*again == live, "a frame differs");
+}
+
+#[test]
+fn a_live_run_that_nobody_turns_gives_the_frames_of_a_run_by_itself() {
+    let scene = scene("demonstration_quick", &SMALL);
+    let (alone, live) = (Frames::default(), Frames::default());
+    let run = Session::start(request(&scene, Ending::Passages, watched(&alone))).unwrap();
+    run.join().unwrap();
+    let session = Session::start(request(&scene, Ending::OnStop, watched(&live))).unwrap();
+    settle(&session);
+    session.handle.send(Command::Stop);
+    session.join().unwrap();
+    let (alone, live) = (alone.0.lock().unwrap(), live.0.lock().unwrap());
+    let n = alone.len().min(live.len());
+    assert!(n > 10 && alone[..n] == live[..n]);
+}
