@@ -92,6 +92,7 @@ fn put_together(
     for (name, path) in named {
         let frames = RecordedFrames::read(path)
             .map_err(|error| Failure::input(miette::miette!("{error}")))?;
+        super::export::tell_where_it_breaks_off(path, &frames);
         runs.push(RunBeside {
             name: name.clone(),
             frames,
