@@ -21,6 +21,7 @@ mod motions;
 mod order;
 mod plan;
 mod random_scenes;
+mod refusals;
 mod regime;
 mod ripple;
 mod scene;

@@ -1,6 +1,7 @@
 //! What the grid and the time step make of the waves on each body.
 
 use super::{PlanError, Warning};
+use crate::math::number::apart;
 use crate::scene::{Order, Scene, Surface};
 
 /// The waves of one body on the grid.
@@ -130,12 +131,15 @@ fn check_resolved(body: u8, surface: &Surface, spacing_m: [f64; 2]) -> Result<()
     } else {
         ("wavelength_y_m", wavelength_y_m)
     };
+    let least_m = value_m * NODES_MIN / nodes;
+    // Rounded down it might allow what is refused.
+    let least = apart(least_m, value_m, 3, |m, digits| format!("{m:.digits$e}"));
+    let nodes = apart(nodes, NODES_MIN, 1, |n, digits| format!("{n:.digits$}"));
     Err(PlanError::Refused {
         key: format!("body_{body}.surface.{name}"),
         value: format!("{value_m:e} m"),
         allowed: format!(
-            "at least {:.3e} m (4 nodes; now {nodes:.1} on a spacing of {:.2} by {:.2} µm), or more grid.nodes",
-            value_m * NODES_MIN / nodes,
+            "at least {least} m (4 nodes; now {nodes} on a spacing of {:.2} by {:.2} µm), or more grid.nodes",
             spacing_m[0] * 1e6,
             spacing_m[1] * 1e6,
         ),

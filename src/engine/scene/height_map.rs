@@ -143,7 +143,7 @@ fn check(matrix: &Matrix, unit_m: f64) -> Result<(), Refusal> {
         Some(n) => Err(refusal(
             format!(
                 "{} in row {}, column {}",
-                matrix.values[n],
+                short(matrix.values[n]),
                 n / nx + 1,
                 n % nx + 1
             ),
@@ -277,7 +277,9 @@ fn npy_header(header: &str) -> Result<(usize, usize, usize), Refusal> {
         Some("<f4") => 4,
         Some("<f8") => 8,
         _ => {
-            let kind: String = descr.chars().take(6).collect();
+            // In quotes, and not what follows; of a record a list.
+            let kind: String = descr.split([',', '}']).next().unwrap_or_default().into();
+            let kind = shortened(kind.trim());
             return Err(refusal(format!("numbers of kind {kind}"), NPY));
         }
     };
@@ -368,6 +370,7 @@ mod tests {
         ] {
             let text = found(parse_npy(&npy(&header(descr, order, shape), &[0; 128])));
             assert!(text.contains(why), "{text}: {why}");
+            assert!(!text.ends_with(','), "{text}");
         }
         let mut version = good.clone();
         version[6] = 9;
@@ -411,6 +414,12 @@ mod tests {
         );
         values[6] = 5.0;
         assert!(why(&matrix(4, values.clone()), 1.0).is_some(), "5 m");
+        for (cell, short) in [(1e300, "1e300 in"), (-1e-300, ""), (f64::MAX, "1.797")] {
+            values[6] = cell;
+            let words = why(&matrix(4, values.clone()), 1.0).unwrap_or_default();
+            assert!(words.starts_with(short) && words.len() < 60, "{words}");
+        }
+        values[6] = 5.0;
         assert_eq!(why(&matrix(4, values), 1e-6), None);
     }
 }

@@ -21,6 +21,7 @@ mod numerics;
 pub mod presets;
 mod shape;
 mod tooth;
+mod wrong;
 
 pub use error::SceneError;
 pub use knob::{Knob, KnobLine, RampRate, Reach, Steps};
@@ -36,3 +37,4 @@ pub use model::{
 pub use numerics::{ErrorSource, Numerics, Order, OrderAsked, Time};
 pub use shape::MINIMUM_HARDNESS;
 pub use tooth::Tooth;
+pub(crate) use wrong::unusual;
