@@ -117,6 +117,10 @@ impl FileContents {
                 "it can be read up to byte {at} of {bytes} ({reason})"
             )),
             _ if unreadable > 0 => Some(format!("{unreadable} of its messages cannot be read")),
+            // For which a full disk had no room, or which was cut off.
+            Ends::WithTheFile if matches!(self.reach, Some((.., true))) => {
+                Some("its index is missing".to_owned())
+            }
             Ends::WithTheFile => Some("its end is missing".to_owned()),
             Ends::Closed => None,
         };
