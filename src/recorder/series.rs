@@ -179,6 +179,7 @@ fn line(code: CautionCode) -> Option<usize> {
         CautionCode::NotSettled => Some(7),
         // The list of cautions has it; the group of lines stays as viewers know it.
         CautionCode::ShortDomain
+        | CautionCode::CrestsNotFelt
         | CautionCode::AboveSmooth
         | CautionCode::NoLife
         | CautionCode::StrengthUnknown

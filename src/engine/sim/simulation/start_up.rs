@@ -34,7 +34,7 @@ pub(super) fn refine_or_develop(plan: &SimPlan, state: &mut State, work: &mut Wo
     state.mesh_errors = state.coarser.map(|coarser| MeshErrors {
         h_central: off(coarser.h_central, measured.h_central),
         h_min: off(coarser.h_min, measured.h_min),
-        p_max: off(coarser.p_max, measured.p_max) + plan.stress_error([1.0; 2]),
+        p_max: off(coarser.p_max, measured.p_max) + plan.stress_error([1.0; 2], 1.0),
     });
     let base = plan.base();
     if let (Some(stress), Some(life)) = (&mut work.stress, &mut state.life) {
