@@ -42,7 +42,7 @@ fn holds(text: &str, number: f64) -> bool {
         });
     // Of the value itself, and not of what comes of it.
     let bound = |name: &str, passed: fn(f64, f64) -> bool| {
-        let rest = text.strip_prefix(name).map(|rest| rest.trim_start());
+        let rest = text.strip_prefix(name).map(str::trim_start);
         let first = rest.and_then(|rest| rest.split(' ').next());
         first.is_some_and(|word| read(word).is_ok_and(|bound| passed(number, bound)))
     };
