@@ -20,7 +20,7 @@ pub(crate) fn run(
     let stem = stem.map_or("scene".into(), |stem| stem.to_string_lossy());
     let usual = || PathBuf::from(format!("{stem}_beside.rrd"));
     let out = args.run.out.clone().unwrap_or_else(usual);
-    Overwrite::from_force(args.run.force).check(&out)?;
+    let name = Overwrite::from_force(args.run.force).claim(&out)?;
     let parts = parts_of(&out, beside.values.len());
     let mut code = 0;
     let mut outcome = Ok(());
@@ -35,6 +35,8 @@ pub(crate) fn run(
         }
         super::scenes::print("\n")?;
     }
+    // The recording claims it for itself.
+    drop(name);
     if outcome.is_ok() && code <= 2 {
         let name = |value: &String| format!("{} = {value}", beside.key);
         let named = beside.values.iter().map(name).zip(parts.iter().cloned());
@@ -90,6 +92,7 @@ fn put_together(
     for (name, path) in named {
         let frames = RecordedFrames::read(path)
             .map_err(|error| Failure::input(miette::miette!("{error}")))?;
+        super::export::tell_where_it_breaks_off(path, &frames);
         runs.push(RunBeside {
             name: name.clone(),
             frames,

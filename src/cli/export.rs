@@ -21,6 +21,7 @@ pub(crate) fn export(args: &ExportArgs) -> Result<u8, Failure> {
     let started = Instant::now();
     let read = RecordedFrames::read(&args.file);
     let frames = read.map_err(|error| Failure::input(miette::miette!("{error}")))?;
+    tell_where_it_breaks_off(&args.file, &frames);
     let read_s = started.elapsed().as_secs_f64();
     let stem = args.file.file_stem().unwrap_or_default().to_string_lossy();
     let usual = || PathBuf::from(format!("{stem}_export"));
@@ -46,6 +47,14 @@ pub(crate) fn export(args: &ExportArgs) -> Result<u8, Failure> {
     );
     super::scenes::print(&text)?;
     Ok(0)
+}
+
+/// What is read of a recording that breaks off is not all of its run.
+pub(super) fn tell_where_it_breaks_off(path: &Path, frames: &RecordedFrames) {
+    if let Some(words) = frames.broken_off() {
+        let path = path.display();
+        super::failure::tell(&format!("{path}: {words}; what was written before is read"));
+    }
 }
 
 fn refuse_unknown_pictures(asked: &[String]) -> Result<(), Failure> {

@@ -38,6 +38,7 @@ pub(crate) type Engine = fn(Request) -> Result<Session, RunError>;
 /// Reads the command line and does what it says.
 pub(crate) fn main(engine: Engine) -> ExitCode {
     failure::install();
+    signals::let_limits_of_size_be_errors();
     start_tracing();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,

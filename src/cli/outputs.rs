@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity_engine::observe::{ObserveError, Overwrite};
+use asperity_engine::observe::{Claim, ObserveError, Overwrite};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::Summary;
 use asperity_picture::export::{Export, Format};
@@ -66,7 +66,7 @@ pub(crate) struct Recording {
 enum SummaryTo {
     People,
     Stdout,
-    File { path: PathBuf, overwrite: Overwrite },
+    File(Claim),
 }
 
 impl Outputs {
@@ -82,7 +82,7 @@ impl Outputs {
         let mut outputs = Self {
             watchers: Vec::new(),
             recording: None,
-            summary: SummaryTo::check(args.summary.as_deref(), overwrite)?,
+            summary: SummaryTo::claim(args.summary.as_deref(), overwrite)?,
             #[cfg(feature = "rerun")]
             held: None,
         };
@@ -223,17 +223,11 @@ impl Outputs {
 }
 
 impl SummaryTo {
-    fn check(path: Option<&Path>, overwrite: Overwrite) -> Result<Self, ObserveError> {
+    fn claim(path: Option<&Path>, overwrite: Overwrite) -> Result<Self, ObserveError> {
         match path {
             None => Ok(Self::People),
             Some(path) if path.as_os_str() == "-" => Ok(Self::Stdout),
-            Some(path) => {
-                overwrite.check(path)?;
-                Ok(Self::File {
-                    path: path.to_owned(),
-                    overwrite,
-                })
-            }
+            Some(path) => Ok(Self::File(overwrite.claim(path)?)),
         }
     }
 
@@ -246,12 +240,12 @@ impl SummaryTo {
         match (self, summary) {
             (Self::Stdout, Some(summary)) => print(&json(summary)?),
             (Self::Stdout, None) => Ok(()),
-            (Self::File { path, overwrite }, Some(summary)) => {
+            (Self::File(claim), Some(summary)) => {
                 // The file first: what cannot be told is no reason to lose it.
-                let written = overwrite.write(&path, json(summary)?.as_bytes());
+                let written = claim.write(json(summary)?.as_bytes());
                 print(people).and(written)
             }
-            (Self::People | Self::File { .. }, _) => print(people),
+            (Self::People | Self::File(_), _) => print(people),
         }
     }
 }

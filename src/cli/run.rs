@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use asperity_engine::observe::{ObserveError, Overwrite};
+use asperity_engine::observe::{Claim, ObserveError, Overwrite, leftovers};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::Scene;
 use asperity_session::run::{
@@ -12,7 +12,7 @@ use asperity_session::run::{
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::args::HeadlessArgs;
+use super::args::{HeadlessArgs, RunArgs};
 use super::failure::{Failure, tell};
 use super::names::Names;
 use super::outputs::{Outputs, RecorderPace};
@@ -59,11 +59,12 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     let names = Names::of(args, &prepared.scene, &path);
     names.with_states(headless).check()?;
     let overwrite = Overwrite::from_force(args.force);
-    if let Some(path) = &headless.save_state {
-        overwrite.check(path)?;
-    }
+    // Two runs would otherwise both compute what one of them can save.
+    let to_save = headless.save_state.as_deref();
+    let to_save = to_save.map(|path| overwrite.claim(path)).transpose()?;
     // From the first file on a signal ends the run in order.
     let interrupt = stop_on_signals()?;
+    tell_of_leftovers(args, headless, recorded.then_some(path.as_path()));
     let mut outputs = Outputs::open(args, &prepared.scene, &path, RecorderPace::Headless)?;
     let request = Request {
         name: prepared.name.clone(),
@@ -93,14 +94,25 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     } else {
         "not estimated: knobs were turned by hand, or the recording ends early".to_owned()
     };
-    note_in_recording(&outcome, recorded.then_some(path.as_path()));
+    note_in_recording(&mut outcome, recorded.then_some(path.as_path()));
     tell_where_stopped(&outcome);
     // The state first: it is what a run that cannot tell its results is taken up from.
-    let state = headless.save_state.as_deref();
-    let saved = state.map_or(Ok(()), |path| save_state(&outcome, path, overwrite));
+    let saved = to_save.map_or(Ok(()), |claim| save_state(&outcome, claim));
     let code = conclude(&prepared.scene, &outcome, Some(&errors), outputs)?;
     saved?;
     Ok(code)
+}
+
+/// Names what runs that were killed left beside the outputs: nobody else will take it away.
+fn tell_of_leftovers(args: &RunArgs, headless: &HeadlessArgs, recording: Option<&Path>) {
+    let named = [&args.table, &args.summary, &headless.save_state];
+    let named = named.into_iter().filter_map(Option::as_deref);
+    for path in named.chain(recording).flat_map(leftovers) {
+        let path = path.display();
+        tell(&format!(
+            "{path}: left by a run that was killed; export and run --from read a recording up to its last whole step"
+        ));
+    }
 }
 
 fn tell_where_stopped(outcome: &Outcome) {
@@ -110,25 +122,26 @@ fn tell_where_stopped(outcome: &Outcome) {
     }
 }
 
-/// Writes what came out into the finished recording's properties. Without it the recording is as good.
-fn note_in_recording(outcome: &Outcome, recording: Option<&Path>) {
+/// Writes what came out into the finished recording's properties. Without it the recording is as good, but it is not what
+/// was asked for.
+fn note_in_recording(outcome: &mut Outcome, recording: Option<&Path>) {
     #[cfg(feature = "rerun")]
     if let (Some(summary), Some(path)) = (&outcome.summary, recording)
         && outcome.output_errors.is_empty()
         && let Err(error) = asperity_recorder::note_summary(path, summary)
     {
-        tell(&error.to_string());
+        outcome.output_errors.push(error);
     }
     #[cfg(not(feature = "rerun"))]
     let _ = (outcome, recording);
 }
 
-fn save_state(outcome: &Outcome, path: &Path, overwrite: Overwrite) -> Result<(), ObserveError> {
+fn save_state(outcome: &Outcome, claim: Claim) -> Result<(), ObserveError> {
     let Some(checkpoint) = &outcome.checkpoint else {
         let reason = "the run never began, so there is no state";
-        return Err(ObserveError::new(path.display().to_string(), reason));
+        return Err(ObserveError::new(claim.name(), reason));
     };
-    overwrite.write_by(path, |at| {
+    claim.write_by(|at| {
         let mut file = std::fs::File::create(at)?;
         checkpoint.write(&mut file)
     })

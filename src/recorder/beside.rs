@@ -121,6 +121,8 @@ pub fn compare(
     written.log_comparison(&names, by);
     layout::send(&stream, &written.shown, &names)?;
     let report = written.report;
+    // Half a comparison is worth no name.
+    stream.flush(None)?;
     if let Some(file) = stream.to().file() {
         file.mark_worth_keeping();
     }

@@ -16,6 +16,8 @@ use rerun::external::re_log_encoding::{CrateVersion, DecoderApp, Encoder, Encodi
 use rerun::log::Chunk;
 use rerun::{ComponentIdentifier, EntityPath, SizeBytes as _};
 
+use asperity_engine::files::part_of;
+
 use super::entities::text::REACH;
 
 /// A chunk has so many bytes, by its entity's first row ...
@@ -57,9 +59,7 @@ pub(crate) fn compact(path: &Path, epilogue: impl Epilogue) -> Result<u64, Strin
         return Err("it is not a regular file".to_owned());
     }
     // In the same folder, so that renaming moves no data.
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    let beside = path.with_file_name(name);
+    let beside = part_of(&path);
     let written = write(&path, &beside, epilogue)
         .and_then(|()| std::fs::rename(&beside, &path).map_err(|error| error.to_string()));
     if let Err(reason) = written {
@@ -77,6 +77,8 @@ fn write(from: &Path, to: &Path, mut epilogue: impl Epilogue) -> Result<(), Stri
     let reader = BufReader::new(File::open(from).map_err(|error| words(&error))?);
     let messages = DecoderApp::decode_eager(reader).map_err(|error| words(&error))?;
     let file = File::create_new(to).map_err(|error| words(&error))?;
+    // As long as it is held nobody takes it for what a killed run left. Where the system knows no locks nobody looks.
+    drop(file.lock());
     let options = EncodingOptions::PROTOBUF_COMPRESSED;
     let encoder = Encoder::new_eager(CrateVersion::LOCAL, options, BufWriter::new(file));
     let mut compactor = Compactor {

@@ -18,7 +18,7 @@ use rerun::log::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
 
 use super::compact::{NoEpilogue, compact};
-use asperity_engine::observe::Placed;
+use asperity_engine::observe::{Left, Placed};
 
 /// A recording's file, shared by the library's thread, which writes, and the recorder, which asks.
 #[derive(Clone)]
@@ -31,7 +31,8 @@ struct FileState {
     file: File,
     /// Length up to the last whole message.
     bytes: u64,
-    error: Option<String>,
+    /// The first thing that went wrong, and what is left.
+    error: Option<(String, Left)>,
     /// Why the file is as it was written in the run, without a footer.
     not_compacted: Option<String>,
     /// Where it lies and what it will be called.
@@ -76,11 +77,8 @@ impl FileState {
     }
 
     fn fail(&mut self, reason: &str) {
-        let place = self.placed.leave();
-        let place = place.map_or_else(String::new, |at| {
-            format!("; it is {}, the older one is as it was", at.display())
-        });
-        self.error.get_or_insert_with(|| format!("{reason}{place}"));
+        let left = self.placed.leave();
+        self.error.get_or_insert_with(|| (reason.to_owned(), left));
         if let Some(mut encoder) = self.encoder.take() {
             // Dropping it would try to write a footer to a disk that takes no more.
             encoder.do_not_emit_footer();
@@ -140,7 +138,12 @@ impl RecordingFile {
 
     /// Why writing has ended, if it has.
     pub(crate) fn error(&self) -> Option<String> {
-        self.lock().error.clone()
+        self.lock().error.as_ref().map(|(reason, _)| reason.clone())
+    }
+
+    /// What is left of a file whose writing has ended before its time.
+    pub(crate) fn left(&self) -> Option<Left> {
+        self.lock().error.as_ref().map(|(_, left)| left.clone())
     }
 
     /// Why the finished file has no footer, if it has none.
@@ -152,7 +155,8 @@ impl RecordingFile {
     pub(crate) fn finish(&self) -> Result<(), String> {
         let mut state = self.lock();
         state.finish();
-        state.error.clone().map_or(Ok(()), Err)
+        let error = state.error.as_ref().map(|(reason, _)| reason.clone());
+        error.map_or(Ok(()), Err)
     }
 }
 

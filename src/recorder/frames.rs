@@ -4,7 +4,7 @@
 //! bits. What is drawn in every second picture only (traction, roughness) is that of the last one; a step whose
 //! fields are all its own is [whole](RecordedFrames::whole).
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use rerun::{
 
 use super::classes;
 use super::entities::{DAMAGE, GRID, SCALARS, damage_block, maps, slice, text};
-use super::messages::{self, Ends};
+use super::messages::{self, Ends, FileRead};
 use super::moment::STEP;
 use super::note::Note;
 use super::repeat::RereadError;
@@ -46,6 +46,7 @@ pub struct RecordedFrames {
     pictures: HashMap<String, SteppedImages>,
     /// What stood under *Now*.
     texts: Vec<(i64, String)>,
+    broken_off: Option<String>,
 }
 
 /// What is collected from the chunks.
@@ -60,27 +61,43 @@ struct FoundRows {
     rows: Vec<(i64, Vec<f64>)>,
     pictures: HashMap<String, SteppedImages>,
     texts: Vec<(i64, String)>,
+    /// Entities whose looks are there: pictures of them follow.
+    announced: BTreeSet<String>,
+    /// Last step, and whether nothing comes after it.
+    reach: Option<(u64, bool)>,
+    /// Where and why it breaks off, in words.
+    broken_off: Option<String>,
 }
 
 impl RecordedFrames {
     /// Reads a recording of a run or of the explorer.
     ///
     /// # Errors
-    /// When it cannot be read, is damaged, is no recording of this version, or holds no picture.
+    /// When it cannot be read, is damaged, is no recording of this version, or holds no picture. One that breaks off is
+    /// read up to there ([`RecordedFrames::broken_off`]).
     pub fn read(path: &Path) -> Result<Self, RereadError> {
         let refused = |reason: String| RereadError {
             path: path.display().to_string(),
             reason,
         };
         let found = FoundRows::read(path).map_err(refused)?;
-        let no_run =
-            "holds no run: not recorded by this version of asperity, or several side by side";
-        let origin = found.origin.ok_or_else(|| refused(no_run.to_owned()));
+        let no_run = match &found.broken_off {
+            None => {
+                "holds no run: not recorded by this version of asperity, or several side by side"
+                    .to_owned()
+            }
+            Some(words) => {
+                format!("{words}; what it holds names no run of this version of asperity")
+            }
+        };
+        let origin = found.origin.ok_or_else(|| refused(no_run));
         let (program, scene_toml) = origin?;
         let scene = Scene::from_toml(&scene_toml).map_err(|error| refused(error.to_string()))?;
-        let unfit = "holds no frames that can be read back: not recorded by this version of asperity, or without a \
-                     step";
-        let grid = scalars::grid_of(&found.grid).ok_or_else(|| refused(unfit.to_owned()))?;
+        let unfit = match &found.broken_off {
+            None => "holds no frames that can be read back: its run made no step".to_owned(),
+            Some(words) => format!("{words}; no step before that is whole"),
+        };
+        let grid = scalars::grid_of(&found.grid).ok_or_else(|| refused(unfit.clone()))?;
         let frames = Self {
             scene: Arc::new(scene),
             scene_toml,
@@ -92,11 +109,17 @@ impl RecordedFrames {
             rows: found.rows,
             pictures: found.pictures,
             texts: found.texts,
+            broken_off: found.broken_off,
         };
         if frames.shown().is_empty() || frames.steps().count() < frames.rows.len() {
-            return Err(refused(unfit.to_owned()));
+            return Err(refused(unfit));
         }
         Ok(frames)
+    }
+
+    /// Where and why the recording breaks off, in words; `None`: it is whole.
+    pub fn broken_off(&self) -> Option<&str> {
+        self.broken_off.as_deref()
     }
 
     fn pictures_of(&self, entity: &str) -> &[(i64, Arc<[u8]>)] {
@@ -266,25 +289,19 @@ impl FoundRows {
     fn read(path: &Path) -> Result<Self, String> {
         let mut found = Self::default();
         let read = messages::read_file(path, |data| {
-            Note::all_in(data, |note| found.take_origin(note));
+            Note::all_in(data, |note| found.take_note(note));
             // What is no chunk is none of the recording's own.
             if let Some(chunk) = chunk_of(data) {
                 found.take(&chunk);
             }
         })?;
-        match read.ends {
-            Ends::Early { at, reason } => {
-                let bytes = read.bytes;
-                return Err(format!("damaged at byte {at} of {bytes} ({reason})"));
-            }
-            Ends::Closed | Ends::WithTheFile if read.unreadable > 0 => {
-                let unreadable = read.unreadable;
-                return Err(format!(
-                    "damaged: {unreadable} of its messages cannot be read"
-                ));
-            }
-            Ends::Closed | Ends::WithTheFile => {}
+        if read.unreadable > 0 {
+            let unreadable = read.unreadable;
+            return Err(format!(
+                "damaged: {unreadable} of its messages cannot be read"
+            ));
         }
+        found.end(&read);
         found.rows.sort_by_key(|(step, _)| *step);
         found.rows.dedup_by_key(|(step, _)| *step);
         found.texts.sort_by_key(|(step, _)| *step);
@@ -294,14 +311,59 @@ impl FoundRows {
         Ok(found)
     }
 
-    fn take_origin(&mut self, note: Note) {
-        if let Note::Origin {
-            program,
-            scene_toml,
-            ..
-        } = note
-        {
-            self.origin = Some((program, scene_toml));
+    /// Where it breaks off, if it does. Steps after that are not whole: a picture may be there beside an older one of
+    /// another kind.
+    fn end(&mut self, read: &FileRead) {
+        let place = match &read.ends {
+            Ends::Closed => return,
+            Ends::WithTheFile if matches!(self.reach, Some((_, true))) => return,
+            Ends::WithTheFile => String::new(),
+            Ends::Early { at, reason } => {
+                let bytes = read.bytes;
+                format!(" (it can be read up to byte {at} of {bytes}: {reason})")
+            }
+        };
+        let last = match self.reach {
+            Some((last, _)) => last.try_into().unwrap_or(i64::MAX),
+            None => self.last_whole(),
+        };
+        let is_whole = |step: i64| step <= last;
+        self.rows.retain(|(step, _)| is_whole(*step));
+        self.texts.retain(|(step, _)| is_whole(*step));
+        for pictures in self.pictures.values_mut() {
+            pictures.retain(|(step, _)| is_whole(*step));
+        }
+        let after = if last > 0 {
+            format!("breaks off after step {last}")
+        } else {
+            "breaks off before its first step is whole".to_owned()
+        };
+        self.broken_off = Some(format!("{after}{place}"));
+    }
+
+    /// The last step that all have which should have it: in a finished recording each quantity lies by itself, so that a
+    /// cut leaves more of one than of another.
+    fn last_whole(&self) -> i64 {
+        let rows = self.rows.iter().map(|(step, _)| *step).max();
+        let pictures = self.announced.iter().map(|entity| {
+            let steps = self.pictures.get(entity).into_iter().flatten();
+            steps.map(|(step, _)| *step).max()
+        });
+        let lasts = pictures.chain([rows]).map(Option::unwrap_or_default);
+        lasts.min().unwrap_or_default()
+    }
+
+    fn take_note(&mut self, note: Note) {
+        match note {
+            Note::Origin {
+                program,
+                scene_toml,
+                ..
+            } => self.origin = Some((program, scene_toml)),
+            Note::Reach {
+                last_step, ended, ..
+            } => self.reach = Some((last_step, ended)),
+            Note::Turn { .. } => {}
         }
     }
 
@@ -366,6 +428,10 @@ impl FoundRows {
             DAMAGE[1],
         ];
         if !known.contains(&entity) {
+            return;
+        }
+        if chunk.is_static() {
+            self.announced.insert(entity.to_owned());
             return;
         }
         let rows = chunk.iter_slices::<&[u8]>(buffer);

@@ -77,10 +77,18 @@ fn read(
     mut take: impl FnMut(&[u8]),
 ) -> Result<(Ends, u64), String> {
     let mut head = [0; FILE_HEAD as usize];
-    file.read_exact(&mut head)
-        .map_err(|_| "not a Rerun recording: it has no header".to_owned())?;
-    if !head.starts_with(FOUR_CC) {
+    // Of a file that was cut in its header there is less.
+    let there = bytes.min(FILE_HEAD) as usize;
+    file.read_exact(&mut head[..there])
+        .map_err(|error| format!("cannot be read: {error}"))?;
+    if there == 0 {
+        return Err("not a recording: it is empty".to_owned());
+    }
+    if head[..there.min(4)] != FOUR_CC[..there.min(4)] {
         return Err("not a Rerun recording".to_owned());
+    }
+    if there < FILE_HEAD as usize {
+        return Err(format!("it ends after {bytes} bytes, within its header"));
     }
     let (mut at, mut unreadable) = (FILE_HEAD, 0);
     let mut message = Vec::new();

@@ -45,6 +45,8 @@ pub struct Recorder {
     /// Steps that did not converge so far.
     unconverged: u64,
     frames: u64,
+    /// Frames that were logged.
+    taken: u64,
     /// Where the last frame was: events come between frames.
     passages: f64,
     /// Frames that came after the viewer was closed.
@@ -99,6 +101,7 @@ impl Recorder {
             turns: 0,
             unconverged: 0,
             frames: 0,
+            taken: 0,
             passages: 0.0,
             unsent: 0,
         }
@@ -182,7 +185,11 @@ impl Recorder {
         if let Some(views) = &mut self.views {
             views.series.send(&self.stream);
         }
-        self.stream.flush(Some((REACH, reach)))
+        self.stream.flush(Some((REACH, reach)))?;
+        if let Some(last) = &self.last {
+            self.stream.note_safe(self.taken, last.step);
+        }
+        Ok(())
     }
 
     /// Whether enough was sent to a viewer that has not answered.
@@ -201,8 +208,8 @@ impl Observer for Recorder {
         self.program.clone_from(&context.program);
         properties::log_scene(&self.stream, context);
         text::log_context(&self.stream, context);
-        // What repeats the run is on the disk before it starts.
-        self.stream.flush(None)
+        // What repeats the run is on the disk before it starts, and that nothing of it is there yet.
+        self.flush(false)
     }
 
     /// Records a frame of the passage; the start-up is not part of the results.
@@ -217,7 +224,9 @@ impl Observer for Recorder {
         self.passages = frame.passages;
         self.log_frame(frame)?;
         self.last = Some(properties::Last::of(frame));
-        if self.stream.is_flush_due() {
+        self.taken += 1;
+        // The first at once: a recording that breaks off early has a picture.
+        if self.taken == 1 || self.stream.is_flush_due() {
             self.flush(false)?;
         }
         if let Some(file) = self.stream.to().file() {

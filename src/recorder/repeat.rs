@@ -117,6 +117,10 @@ impl FileContents {
                 "it can be read up to byte {at} of {bytes} ({reason})"
             )),
             _ if unreadable > 0 => Some(format!("{unreadable} of its messages cannot be read")),
+            // For which a full disk had no room, or which was cut off.
+            Ends::WithTheFile if matches!(self.reach, Some((.., true))) => {
+                Some("its index is missing".to_owned())
+            }
             Ends::WithTheFile => Some("its end is missing".to_owned()),
             Ends::Closed => None,
         };
@@ -124,8 +128,12 @@ impl FileContents {
             .as_ref()
             .map_or_else(String::new, |words| format!("; {words}"));
         let Some((program, began, scene_toml)) = self.origin else {
+            let ends = match read.ends {
+                Ends::Closed => "",
+                Ends::WithTheFile | Ends::Early { .. } => ", or broken off before it",
+            };
             return Err(format!(
-                "holds nothing that repeats a run: not recorded by this version of asperity, or damaged{damage}"
+                "holds nothing that repeats a run: not recorded by this version of asperity{ends}{damage}"
             ));
         };
         if began == Began::FromState {
@@ -133,9 +141,15 @@ impl FileContents {
                           --from-state";
             return Err(reason.to_owned());
         }
-        let Some((last_step, turned, ended)) = self.reach.filter(|(last_step, ..)| *last_step > 0)
-        else {
-            return Err(format!("it holds no step, or has lost its end{damage}"));
+        let (last_step, turned, ended) = match self.reach {
+            Some(reach) if reach.0 > 0 => reach,
+            Some(_) => return Err(format!("it holds no step{damage}")),
+            // A finished one holds that at its end, beside the knobs that were turned.
+            None => {
+                let lost = "a finished recording that was cut, or it breaks off in its first words: how far its run went \
+                            is not in it";
+                return Err(format!("{lost}{damage}"));
+            }
         };
         // Of a run that was killed a turn may be there whose steps are not.
         self.turns.retain(|(n, ..)| *n < turned);

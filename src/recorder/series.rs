@@ -181,6 +181,7 @@ fn line(code: CautionCode) -> Option<usize> {
         CautionCode::AmplitudeDoubtful
         | CautionCode::MapDoubtful
         | CautionCode::ShortDomain
+        | CautionCode::CrestsNotFelt
         | CautionCode::AboveSmooth
         | CautionCode::NoLife
         | CautionCode::StrengthUnknown

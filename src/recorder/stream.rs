@@ -18,7 +18,8 @@ use super::live::{self, Live};
 use super::moment::{Moment, check_clock, time_columns};
 use super::note::Note;
 use super::size::SizeEstimate;
-use asperity_engine::observe::{ObserveError, Overwrite};
+use asperity_engine::math::number::counted;
+use asperity_engine::observe::{Left, ObserveError, Overwrite};
 
 /// Name under which viewers group recordings and remember layouts.
 pub(crate) const APPLICATION: &str = "asperity";
@@ -35,6 +36,8 @@ const FILE_BATCHES: ChunkBatcherConfig = ChunkBatcherConfig {
 };
 /// A file is flushed this often: with a frame that waits in the queue, `kill -9` loses less than a second.
 const FLUSH_TICK: Duration = Duration::from_millis(700);
+/// ... and after so many bytes: what is not flushed a full disk takes too, and on a small one it would be everything.
+const FLUSH_BYTES: f64 = 512.0 * 1024.0;
 /// Longest wait for a viewer to take the last bytes.
 const LIVE_CLOSE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Longest wait for a file to take what was logged.
@@ -62,6 +65,9 @@ pub(crate) struct Stream {
     output: String,
     closed: bool,
     flushed: Instant,
+    flushed_bytes: f64,
+    /// Steps that can be read back whatever comes, and the last of them.
+    safe: Option<(u64, u64)>,
     now: Cell<Moment>,
     size: RefCell<SizeEstimate>,
     /// Why something could not be logged, first of all that could not: [`Stream::check`] tells.
@@ -105,6 +111,8 @@ impl Stream {
             output,
             closed: false,
             flushed: Instant::now(),
+            flushed_bytes: 0.0,
+            safe: None,
             now: Cell::default(),
             size: RefCell::default(),
             refused: RefCell::default(),
@@ -234,18 +242,23 @@ impl Stream {
 
     /// Whether rows have waited long enough to be flushed.
     pub(crate) fn is_flush_due(&self) -> bool {
-        let tick = if self.is_live() {
-            LIVE_BATCHES.flush_tick
-        } else {
-            FLUSH_TICK
-        };
-        self.flushed.elapsed() >= tick
+        let elapsed = self.flushed.elapsed();
+        if self.is_live() {
+            return elapsed >= LIVE_BATCHES.flush_tick;
+        }
+        elapsed >= FLUSH_TICK || self.expected_bytes() - self.flushed_bytes >= FLUSH_BYTES
+    }
+
+    /// So many steps up to that one are in the file, with how far it goes.
+    pub(crate) fn note_safe(&mut self, steps: u64, last: u64) {
+        self.safe = Some((steps, last));
     }
 
     /// Writes the rows that wait to the file, and after them how far it then goes: of several such notes the finished file
     /// has the last one.
     pub(crate) fn flush(&mut self, reach: Option<(&str, Note)>) -> Result<(), ObserveError> {
         self.flushed = Instant::now();
+        self.flushed_bytes = self.expected_bytes();
         if self.is_live() || self.closed {
             return Ok(());
         }
@@ -302,14 +315,25 @@ impl Stream {
         }
     }
 
+    /// What went wrong, and what is left. The system's own words name the cause: others would be a guess.
     fn failed(&self, reason: &str) -> ObserveError {
-        ObserveError::new(
-            self.output(),
-            format!(
-                "the recording could not be written ({reason}); what was written before stays \
-                 readable. Is the disk full?"
-            ),
-        )
+        let place = match self.to.file().and_then(RecordingFile::left) {
+            Some(Left::Nothing) => "; nothing of it is left".to_owned(),
+            Some(Left::Beside(at)) => {
+                let at = at.display();
+                format!("; it is {at}, the older one is as it was")
+            }
+            Some(Left::InItsPlace) | None => String::new(),
+        };
+        let steps = match self.safe {
+            Some((steps, last)) => {
+                let steps = counted(steps, "step");
+                format!("; {steps} up to step {last} can be read back")
+            }
+            None => "; no step of it can be read back".to_owned(),
+        };
+        let reason = format!("the recording could not be written ({reason}){steps}{place}");
+        ObserveError::new(self.output(), reason)
     }
 }
 

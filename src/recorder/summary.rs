@@ -30,7 +30,9 @@ pub fn note_summary(path: &Path, summary: &Summary) -> Result<(), ObserveError> 
         texts: [NOW, LECTURE].map(|entity| (entity, None)),
     };
     compact::compact(path, result).map(drop).map_err(|reason| {
-        let reason = format!("its result could not be added to its properties: {reason}");
+        let reason = format!(
+            "its result could not be added to its properties: {reason}; its steps are all there"
+        );
         ObserveError::new(path.display().to_string(), reason)
     })
 }

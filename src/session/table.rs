@@ -9,7 +9,8 @@ use std::sync::Arc;
 
 use crate::cells::Cells;
 use asperity_engine::observe::{
-    NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, Placed, RunContext, RunEvent,
+    Left, NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, Placed, RunContext,
+    RunEvent,
 };
 use asperity_engine::sim::{CATALOGUE, Frame};
 
@@ -60,14 +61,17 @@ impl Table {
 
     /// It keeps its rows where they are; a table that they were to replace stays.
     fn failed(&mut self, error: &std::io::Error) -> ObserveError {
-        let place = self.placed.leave();
-        let place = place.map_or_else(String::new, |at| format!(" in {}", at.display()));
-        ObserveError::new(
-            &self.output,
-            format!(
-                "the table could not be written ({error}); rows written before are kept{place}"
-            ),
-        )
+        let rows = self.rows;
+        let kept = match self.placed.leave() {
+            Left::Nothing => "no row of it was written".to_owned(),
+            Left::InItsPlace => format!("the {rows} rows written before are kept"),
+            Left::Beside(at) => {
+                let at = at.display();
+                format!("the {rows} rows written before are kept in {at}")
+            }
+        };
+        let reason = format!("the table could not be written ({error}); {kept}");
+        ObserveError::new(&self.output, reason)
     }
 }
 

@@ -287,6 +287,56 @@ fn a_killed_run_leaves_what_it_was_to_replace_and_what_it_had_made() {
     assert_code(&again, 0);
 }
 
+/// How many of two that are started together win; whoever loses is told what to do.
+fn winners(place: &Path, args: &[&str], told: &str) -> usize {
+    let start = |_| {
+        let mut command = command(place, args);
+        command.stdout(Stdio::null()).stderr(Stdio::piped());
+        command.spawn().unwrap()
+    };
+    let both: Vec<Child> = (0..2).map(start).collect();
+    let ends = both.into_iter().map(|child| {
+        let output = child.wait_with_output().unwrap();
+        let won = matches!(output.status.code(), Some(0 | 2));
+        if !won {
+            refused(&output, 4, &[told]);
+        }
+        usize::from(won)
+    });
+    ends.sum()
+}
+
+#[test]
+fn of_two_runs_started_together_on_one_name_one_wins() {
+    const SWEEP: &str = include_str!("../cluster/tiny.toml");
+    // Each starter in a process of its own takes a second; names alone are asked for a hundred times in the engine.
+    let rounds = std::env::var("ASPERITY_ROUNDS").map_or(3, |rounds| rounds.parse().unwrap());
+    for round in 0..rounds {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path();
+        for (names, out) in [
+            (&["--out=run.rrd"][..], "run.rrd"),
+            (&["--no-record", "--table=run.csv"], "run.csv"),
+            (&["--no-record", "--save-state=run.state"], "run.state"),
+            (&["--no-record", "--summary=run.json"], "run.json"),
+            (
+                &["--no-record", "--export=fields", "--export-every=1"],
+                "fields",
+            ),
+        ] {
+            let won = winners(place, &small("0.1", names), "choose another");
+            assert_eq!(won, 1, "{out}, round {round}");
+            assert!(place.join(out).exists(), "{out}, round {round}");
+        }
+        std::fs::write(place.join("tiny.toml"), SWEEP.replace("n = 16", "n = 2")).unwrap();
+        let sweep = ["sweep", "tiny.toml", "--threads=1", "--out=own"];
+        assert_eq!(winners(place, &sweep, "sweep"), 1, "sweep, round {round}");
+        let beside = names(place);
+        let left: Vec<_> = beside.iter().filter(|name| name.contains("part")).collect();
+        assert!(left.is_empty(), "{left:?}");
+    }
+}
+
 /// Before its first step a run has nothing that is worth a name: a kill leaves the names free.
 #[test]
 fn a_run_that_is_killed_in_its_start_up_blocks_nobody() {

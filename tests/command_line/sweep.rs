@@ -917,3 +917,30 @@ fn a_stopped_sweep_says_so() {
         &["stopped with", "of 8 cases", "--resume continues"],
     );
 }
+
+#[test]
+fn of_two_sweeps_that_begin_together_in_one_folder_one_does() {
+    let sweep = sweep(FEW);
+    for existing in [Existing::Refuse, Existing::Replace] {
+        let root = tempfile::tempdir().unwrap();
+        let gate = std::sync::Barrier::new(2);
+        for round in 0..100 {
+            let place = root.path().join(format!("sweep-{round}"));
+            let begin = || {
+                gate.wait();
+                let folder = Folder::create(&place, &sweep, existing);
+                // Whoever has it stays until the other has been refused.
+                gate.wait();
+                folder.map(drop)
+            };
+            let ends = std::thread::scope(|scope| {
+                let both = [scope.spawn(begin), scope.spawn(begin)];
+                both.map(|one| one.join().unwrap())
+            });
+            let refused: Vec<_> = ends.into_iter().filter_map(Result::err).collect();
+            assert_eq!(refused.len(), 1, "{round}: {refused:?}");
+            let told = refused[0].to_string();
+            assert!(told.contains("another sweep is working in it"), "{told}");
+        }
+    }
+}

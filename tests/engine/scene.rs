@@ -137,7 +137,7 @@ fn bad_values_are_refused_with_key_value_and_range() {
             "motion.slide_roll=NaN",
             "motion.slide_roll",
             "\"NaN\"",
-            "-2 to 2",
+            "a number, -2 to 2",
         ),
         (
             "motion.slide_roll=nan",
@@ -167,7 +167,7 @@ fn bad_values_are_refused_with_key_value_and_range() {
             "load.hertz_pressure_pa=1e11",
             "load.hertz_pressure_pa",
             "1e11",
-            "1e6 to 1e10 Pa",
+            "1e6 to 1e10 Pa; did you mean 1e8?",
         ),
         (
             "grid.nodes=128",
@@ -178,8 +178,8 @@ fn bad_values_are_refused_with_key_value_and_range() {
         (
             "grid.nodes=129.0",
             "grid.nodes",
-            "129",
-            "one of 33, 65, 129, 257, 513, 1025",
+            "129.0",
+            "a whole number, written without a point: 129",
         ),
         ("body_1.poisson=0.6", "body_1.poisson", "0.6", "0 to 0.5"),
         (
@@ -238,7 +238,10 @@ fn every_number_key_refuses_what_is_no_number_or_out_of_range() {
             else {
                 panic!("{path}={value}: {error}");
             };
-            assert_eq!((named, allowed), (&path, &key.allowed()), "{value}");
+            assert_eq!(named, &path, "{value}");
+            // The words around it are those of `refusals`.
+            let is_fraction = allowed.contains("without a fraction");
+            assert!(allowed.contains(&key.allowed()) || is_fraction, "{allowed}");
         }
     }
 }

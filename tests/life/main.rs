@@ -4,6 +4,7 @@
 mod common;
 mod counts;
 mod damage;
+mod felt;
 mod integrals;
 mod passages;
 mod patch;

@@ -158,7 +158,7 @@ fn a_killed_run_goes_as_far_as_its_recording() {
     for length in (0..bytes.len()).step_by(397).chain([bytes.len()]) {
         if let Ok(run) = attack.read(&bytes[..length]) {
             assert!(run.broken_off.is_some(), "{length} bytes");
-            assert_eq!(run.last_step % 6, 0);
+            assert!(run.last_step == 1 || run.last_step % 6 == 0);
             let turns = killed.turns.iter();
             let by_then = turns.filter(|turn| turn.steps_made <= 100 + run.last_step);
             assert_eq!(run.turns, by_then.cloned().collect::<Vec<_>>());
@@ -167,7 +167,7 @@ fn a_killed_run_goes_as_far_as_its_recording() {
     }
     assert!(reached.is_sorted());
     reached.dedup();
-    assert_eq!(reached, [6, 12, 18, 24]);
+    assert_eq!(reached, [1, 6, 12, 18, 24]);
 }
 
 /// Bytes of a number in a message, as a protobuf has it.

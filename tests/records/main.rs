@@ -3,6 +3,7 @@
 mod beside;
 #[path = "../common/mod.rs"]
 mod common;
+mod cut;
 mod damaged;
 mod export;
 mod live;

@@ -65,6 +65,25 @@ pub fn length(value_m: f64) -> String {
     unit.show(value_m, 3)
 }
 
+/// `value`, which has passed a bound, with as many digits of `write`, `digits` at least, as show that it has: 10.0001 is
+/// not written 10.0 beside "at most 10".
+pub fn apart(
+    value: f64,
+    bound: f64,
+    digits: usize,
+    write: impl Fn(f64, usize) -> String,
+) -> String {
+    const MOST: usize = 20;
+    let has_passed = value.partial_cmp(&bound);
+    let texts = (digits..MOST).map(|digits| write(value, digits));
+    let shows = |text: &String| {
+        let read = text.parse::<f64>().ok();
+        read.and_then(|read| read.partial_cmp(&bound)) == has_passed
+    };
+    let mut texts = texts.filter(shows);
+    texts.next().unwrap_or_else(|| write(value, digits))
+}
+
 /// A count with its noun, which takes an s unless there is one: "1 peak", "2 peaks".
 pub fn counted(n: u64, what: &str) -> String {
     let plural = if n == 1 { "" } else { "s" };

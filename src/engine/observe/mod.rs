@@ -9,7 +9,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use placed::{Overwrite, Placed, is_free};
+pub use placed::{Claim, Left, Overwrite, Placed, is_free, leftovers};
 pub use queue_stats::QueueStats;
 
 use crate::scene::Scene;

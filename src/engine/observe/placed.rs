@@ -7,14 +7,26 @@
 //! | a device | in it | | |
 //!
 //! A file that another run is writing is refused, by a lock that ends with its process. A killed run leaves a name free
-//! until there is something that is worth it.
+//! until there is something that is worth it. Of runs that ask for one free name at the same moment the first by the name
+//! of its part stays: each makes its part and locks it before it looks for others, so two never stay, and only one that
+//! is ahead makes another give way, so one always does. No lock of the folder is needed, which a script may hold.
 
+use std::ffi::OsString;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use super::ObserveError;
-use crate::files::{folder_of, open_plain, part_of, publish, sync_file, sync_folder, write_whole};
+use crate::files::{
+    folder_of, identity, open_plain, part_of, publish, sync_file, sync_folder, write_whole,
+};
+
+/// How long a run waits for others that are behind it to give way: one that does not has the name already.
+const GIVING_WAY: Duration = Duration::from_secs(1);
+/// How often a name is looked at again that has changed while it was asked for.
+const MOST_LOOKS: usize = 10;
+const TAKEN: &str = "another run is writing it; wait for its end or choose another name";
 
 /// What to do with an output file that is there already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -95,23 +107,53 @@ impl Overwrite {
     /// # Errors
     /// When it exists and may not be replaced, is being written by another run, or cannot be written.
     pub fn open(self, path: &Path) -> Result<(File, Placed), ObserveError> {
+        for _ in 0..MOST_LOOKS {
+            tidy(path);
+            if let Some(opened) = self.try_open(path)? {
+                return Ok(opened);
+            }
+        }
+        Err(ObserveError::new(path.display().to_string(), TAKEN))
+    }
+
+    /// Makes a name this run's own, for a file that is written whole when the run ends.
+    ///
+    /// # Errors
+    /// As [`Overwrite::open`].
+    pub fn claim(self, path: &Path) -> Result<Claim, ObserveError> {
+        let (_, placed) = self.open(path)?;
+        let path = path.to_owned();
+        Ok(Claim { path, placed })
+    }
+
+    /// Opens what the name leads to; `None`: it leads to something else by now.
+    fn try_open(self, path: &Path) -> Result<Option<(File, Placed)>, ObserveError> {
         let failed = |error: std::io::Error| refused(path, &error);
         let new = |at: &Path| OpenOptions::new().write(true).create_new(true).open(at);
         // A `Placed` is made of a file of this run's own only: it may take that away again.
-        let (file, mut placed) = match self.look(path)? {
+        match self.look(path)? {
             There::Device => {
                 let file = OpenOptions::new().write(true).open(path).map_err(failed)?;
                 let mut placed = Placed::new(path, path);
                 placed.name = Name::Device;
-                (file, placed)
+                Ok(Some((file, placed)))
             }
             There::Nothing => {
                 let part = part_of(path);
                 let file = new(&part).map_err(failed)?;
                 let mut placed = Placed::new(path, &part);
                 placed.name = Name::Free;
-                placed.lock = Some(file.try_clone().map_err(failed)?);
-                (file, placed)
+                if !placed.lock_part(&file).map_err(failed)? {
+                    return Ok(None);
+                }
+                if placed.is_first().map_err(failed)? {
+                    return Ok(Some((file, placed)));
+                }
+                placed.discard();
+                if path.symlink_metadata().is_ok() {
+                    return Ok(None);
+                }
+                Err(ObserveError::new(path.display().to_string(), TAKEN))
             }
             There::File(real) => {
                 let old = std::fs::metadata(&real).map_err(failed)?;
@@ -120,13 +162,14 @@ impl Overwrite {
                 // Where the system has none the new file has its usual ones.
                 drop(file.set_permissions(old.permissions()));
                 let mut placed = Placed::new(&real, &part);
-                // A file that may be written but not read is not locked.
-                placed.lock = File::open(&real).ok();
-                (file, placed)
+                if !placed.lock_old() {
+                    placed.discard();
+                    return Err(ObserveError::new(path.display().to_string(), TAKEN));
+                }
+                let is_there = placed.lock_part(&file).map_err(failed)?;
+                Ok(is_there.then_some((file, placed)))
             }
-        };
-        placed.take_lock(path)?;
-        Ok((file, placed))
+        }
     }
 
     fn look(self, path: &Path) -> Result<There, ObserveError> {
@@ -173,21 +216,49 @@ fn is_pipe(_there: &std::fs::Metadata) -> bool {
 
 /// Whether nothing has a name, and no run is writing a file that will have it.
 pub fn is_free(path: &Path) -> bool {
-    !path.exists() && !is_expected(path, Path::new(""))
+    !path.exists() && others(path).next().is_none()
 }
 
-/// Whether a run is writing a file, other than `own`, that will have that name.
-fn is_expected(target: &Path, own: &Path) -> bool {
+/// Parts of a file that runs left which were killed. Where locks are not used nobody can tell them from parts that are
+/// being written.
+pub fn leftovers(path: &Path) -> Vec<PathBuf> {
+    let beside = identity(path);
+    let parts = parts(&beside).filter(|(_, locked)| cfg!(unix) && !locked);
+    parts.map(|(name, _)| path.with_file_name(name)).collect()
+}
+
+/// Takes away empty parts that killed runs left of a file: nothing was lost with them.
+fn tidy(path: &Path) {
+    for part in leftovers(path) {
+        let opened = open_plain(&part).ok().filter(|part| {
+            // Whoever has just made it locks it next, and then finds that it is gone.
+            part.try_lock().is_ok() && part.metadata().is_ok_and(|part| part.len() == 0)
+        });
+        if opened.is_some() {
+            // One that stays behind does no harm.
+            drop(std::fs::remove_file(&part));
+        }
+    }
+}
+
+/// Names of the parts of a file that runs are writing.
+fn others(target: &Path) -> impl Iterator<Item = OsString> {
+    let locked = parts(target).filter(|(_, locked)| *locked);
+    locked.map(|(name, _)| name)
+}
+
+/// Names of the parts of a file, and whether somebody holds them.
+fn parts(target: &Path) -> impl Iterator<Item = (OsString, bool)> {
     let stem = target.file_stem().unwrap_or_default().to_string_lossy();
     let begins = format!("{stem}.part-");
     let entries = std::fs::read_dir(folder_of(target)).into_iter().flatten();
-    entries.flatten().any(|entry| {
+    entries.flatten().filter_map(move |entry| {
         let name = entry.file_name();
-        let is_part = own.file_name() != Some(&name)
-            && name.to_string_lossy().starts_with(&begins)
+        let is_part = name.to_string_lossy().starts_with(&begins)
             && Path::new(&name).extension() == target.extension();
-        let locked = |file: File| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock));
-        is_part && open_plain(&entry.path()).is_ok_and(locked)
+        let held = |file: File| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock));
+        let opened = is_part.then(|| open_plain(&entry.path()).ok()).flatten()?;
+        Some((name, held(opened)))
     })
 }
 
@@ -213,6 +284,17 @@ enum Name {
     Device,
 }
 
+/// What of a file that has failed is left, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Left {
+    /// It held nothing that is worth a file, and is gone.
+    Nothing,
+    /// It has its name.
+    InItsPlace,
+    /// It lies beside one that has its name.
+    Beside(PathBuf),
+}
+
 /// A file that is being written, and the name that it will have.
 #[derive(Debug)]
 pub struct Placed {
@@ -220,7 +302,7 @@ pub struct Placed {
     /// Where it is written.
     at: PathBuf,
     /// Held while it is written.
-    lock: Option<File>,
+    locks: Vec<File>,
     holds_something: bool,
     name: Name,
     is_settled: bool,
@@ -231,31 +313,59 @@ impl Placed {
         Self {
             target: target.to_owned(),
             at: at.to_owned(),
-            lock: None,
+            locks: Vec::new(),
             holds_something: false,
             name: Name::Taken,
             is_settled: false,
         }
     }
 
-    /// Refuses a file that another run holds. Where the system knows no locks there is none to respect.
-    fn take_lock(&mut self, path: &Path) -> Result<(), ObserveError> {
+    /// Locks the part, which others then find; false: one of them took it for what a killed run left, and away. Where the
+    /// system knows no locks there is none to respect.
+    fn lock_part(&mut self, part: &File) -> std::io::Result<bool> {
         // Elsewhere a lock also keeps readers out, such as a viewer that looks on.
-        if !cfg!(unix) {
-            self.lock = None;
-        }
-        let tried = self.lock.as_ref().map(File::try_lock);
-        let is_held = matches!(tried, Some(Err(TryLockError::WouldBlock)));
-        if is_held || (self.name == Name::Free && is_expected(&self.target, &self.at)) {
-            // The part file alone is this run's.
-            if self.at != self.target {
-                drop(std::fs::remove_file(&self.at));
+        if cfg!(unix) {
+            let lock = part.try_clone()?;
+            // Not tried but waited for: another run may be looking whether it is locked.
+            if lock.lock().is_ok() {
+                self.locks.push(lock);
+                return self.at.try_exists();
             }
-            self.is_settled = true;
-            let reason = "another run is writing it; wait for its end or choose another name";
-            return Err(ObserveError::new(path.display().to_string(), reason));
         }
-        Ok(())
+        Ok(true)
+    }
+
+    /// Locks the file that will be replaced; false: another run holds it. One that may be written but not read is not
+    /// locked.
+    fn lock_old(&mut self) -> bool {
+        let old = File::open(&self.target).ok().filter(|_| cfg!(unix));
+        let tried = old.as_ref().map(File::try_lock);
+        let is_held = matches!(tried, Some(Err(TryLockError::WouldBlock)));
+        self.locks.extend(old);
+        !is_held
+    }
+
+    /// Whether the free name is this run's: no other is writing a part of that name, or all who do are behind it and
+    /// have given way.
+    fn is_first(&self) -> std::io::Result<bool> {
+        let own = self.at.file_name().unwrap_or_default();
+        let began = Instant::now();
+        loop {
+            let others: Vec<_> = others(&self.target).filter(|name| name != own).collect();
+            if others.is_empty() {
+                break;
+            }
+            if others.iter().any(|name| **name < *own) || began.elapsed() > GIVING_WAY {
+                return Ok(false);
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        // One whose part was gone already may have given it the name.
+        match self.target.symlink_metadata() {
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(true),
+            Err(error) => Err(error),
+            Ok(_) => Ok(false),
+        }
     }
 
     /// Where it is written: its name, or beside it.
@@ -276,15 +386,18 @@ impl Placed {
         Ok(())
     }
 
-    /// Leaves it where it is: it has failed, and what it replaces is worth more. Says where that is, if it is not
-    /// its own name.
-    pub fn leave(&mut self) -> Option<PathBuf> {
-        if !self.holds_something {
+    /// Leaves it where it is: it has failed, and what it replaces is worth more.
+    pub fn leave(&mut self) -> Left {
+        if !self.holds_something && self.name != Name::Device {
             self.discard();
-            return None;
+            return Left::Nothing;
         }
         self.is_settled = true;
-        (self.at != self.target && self.name != Name::Device).then(|| self.at.clone())
+        if self.at == self.target {
+            Left::InItsPlace
+        } else {
+            Left::Beside(self.at.clone())
+        }
     }
 
     /// Brings it to the disk and gives it its name; takes it away if nothing is in it. Whether it is there.
@@ -317,6 +430,57 @@ impl Placed {
             drop(std::fs::remove_file(&self.at));
         }
         self.is_settled = true;
+    }
+}
+
+/// A name that is this run's from its start, for a file that is written whole at its end. Dropped, it is free again.
+#[derive(Debug)]
+pub struct Claim {
+    /// As it was asked for.
+    path: PathBuf,
+    placed: Placed,
+}
+
+impl Claim {
+    /// Its name in messages.
+    pub fn name(&self) -> String {
+        self.path.display().to_string()
+    }
+
+    /// Writes the file whole or not at all.
+    ///
+    /// # Errors
+    /// When the disk says no; then a file that was there is as it was.
+    pub fn write(self, bytes: &[u8]) -> Result<(), ObserveError> {
+        self.write_by(|at| std::fs::write(at, bytes))
+    }
+
+    /// Same by somebody who writes a file of the name that he is given.
+    ///
+    /// # Errors
+    /// As [`Claim::write`].
+    pub fn write_by<T>(
+        mut self,
+        writer: impl FnOnce(&Path) -> std::io::Result<T>,
+    ) -> Result<T, ObserveError> {
+        let placed = &mut self.placed;
+        // Half of it is nothing: it goes with the claim.
+        let value = writer(&placed.at).map_err(|error| refused(&self.path, &error))?;
+        let is_device = placed.name == Name::Device;
+        let synced = if is_device {
+            Ok(())
+        } else {
+            sync_file(&placed.at)
+        };
+        synced.map_err(|error| refused(&self.path, &error))?;
+        let settled = placed.hold().and_then(|()| placed.settle());
+        settled.map(|_| value).map_err(|error| {
+            let mut failed = refused(&self.path, &error);
+            if let Left::Beside(at) = placed.leave() {
+                failed.reason = format!("{}; it is {}", failed.reason, at.display());
+            }
+            failed
+        })
     }
 }
 
@@ -371,7 +535,7 @@ mod tests {
         assert!(second.reason.contains("another run"), "{second}");
         let other = folder.path().join("run.rrd");
         drop(Overwrite::Refuse.open(&other).unwrap());
-        // Its name is free until it holds something.
+        // Its name is not given to anything until it holds something.
         assert!(!path.exists());
         let (file, mut placed) = held;
         placed.hold().unwrap();
@@ -386,5 +550,97 @@ mod tests {
         std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o440)).unwrap();
         assert!(Overwrite::Replace.write(&path, b"newer").is_err());
         assert_eq!(read(&path).as_deref(), Some("new"));
+    }
+
+    /// How many of so many that start at one moment have the name; the last of them gives it what it holds.
+    fn winners(starters: usize, overwrite: Overwrite, path: &Path) -> usize {
+        let gate = std::sync::Barrier::new(starters);
+        let start = || {
+            gate.wait();
+            let opened = overwrite.open(path);
+            // Held until all have been refused.
+            gate.wait();
+            match opened {
+                Ok((mut file, mut placed)) => {
+                    file.write_all(b"new").unwrap();
+                    placed.hold().unwrap();
+                    true
+                }
+                Err(error) => {
+                    assert!(error.reason.contains("another run"), "{error}");
+                    false
+                }
+            }
+        };
+        std::thread::scope(|scope| {
+            let all: Vec<_> = (0..starters).map(|_| scope.spawn(start)).collect();
+            let won = all.into_iter().map(|one| one.join().unwrap());
+            won.filter(|won| *won).count()
+        })
+    }
+
+    #[test]
+    fn of_those_who_ask_for_one_name_together_one_has_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.csv");
+        for round in 0..100 {
+            let starters = [2, 2, 2, 5][round % 4];
+            assert_eq!(winners(starters, Overwrite::Refuse, &path), 1, "{round}");
+            // The old one is replaced by one of them, too.
+            std::fs::write(&path, "old").unwrap();
+            assert_eq!(winners(starters, Overwrite::Replace, &path), 1, "{round}");
+            assert_eq!(read(&path).as_deref(), Some("new"), "{round}");
+            std::fs::remove_file(&path).unwrap();
+            assert_eq!(winners(starters, Overwrite::Replace, &path), 1, "{round}");
+            std::fs::remove_file(&path).unwrap();
+            assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        }
+    }
+
+    #[test]
+    fn a_part_that_a_killed_run_left_blocks_nobody() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.csv");
+        for name in ["run.part-1-0.csv", "run.part-999999-0.csv"] {
+            std::fs::write(folder.path().join(name), "half").unwrap();
+        }
+        std::fs::write(folder.path().join("run.part-7-0.csv"), "").unwrap();
+        let held = Overwrite::Refuse.open(&path).unwrap();
+        // The empty one is gone. They are named, and what is being written is none.
+        assert_eq!(leftovers(&path).len(), if cfg!(unix) { 2 } else { 0 });
+        drop(held);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn a_claim_is_held_from_its_start_and_gone_with_what_failed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.state");
+        for overwrite in [Overwrite::Refuse, Overwrite::Replace] {
+            let claim = overwrite.claim(&path).unwrap();
+            let second = Overwrite::Replace.claim(&path).unwrap_err();
+            assert!(second.reason.contains("another run"), "{second}");
+            let before = read(&path);
+            let half = claim.write_by(|at| {
+                std::fs::write(at, "half")?;
+                Err::<(), _>(std::io::Error::other("full"))
+            });
+            assert!(half.unwrap_err().reason.contains("full"));
+            assert_eq!(read(&path), before);
+            overwrite.claim(&path).unwrap().write(b"whole").unwrap();
+            assert_eq!(read(&path).as_deref(), Some("whole"));
+            assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        }
+        // Somebody puts a file there meanwhile: neither is lost.
+        std::fs::remove_file(&path).unwrap();
+        let claim = Overwrite::Refuse.claim(&path).unwrap();
+        std::fs::write(&path, "mine").unwrap();
+        let beside = claim.write(b"whole").unwrap_err().reason;
+        assert!(
+            beside.contains("exists") && beside.contains("run.part-"),
+            "{beside}"
+        );
+        assert_eq!(read(&path).as_deref(), Some("mine"));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
     }
 }

@@ -4,6 +4,7 @@ pub mod cycles;
 pub mod estimate;
 pub mod eyring;
 pub mod fatigue;
+pub mod felt;
 pub mod film_regression;
 pub mod film_ripple;
 pub mod fluid;

@@ -239,6 +239,10 @@ impl Plan {
     /// [`PlanError::Refused`] when a wavelength has fewer than 4 nodes, or when the equations do not hold for the bodies or
     /// the film.
     pub fn new(scene: &Scene) -> Result<Self, PlanError> {
+        Self::of(scene).map_err(|error| error.beside_the_unusual(scene))
+    }
+
+    fn of(scene: &Scene) -> Result<Self, PlanError> {
         let hertz = scene.hertz();
         let film = decide::film_plan(scene, &hertz);
         range::check(scene, &hertz, film.as_ref())?;

@@ -9,6 +9,7 @@
 //! bodies.
 
 use super::{FilmPlan, PlanError};
+use crate::math::number::apart;
 use crate::physics::hertz::Hertz;
 use crate::scene::{ContactKind, Knob, Scene};
 
@@ -52,11 +53,24 @@ fn too_large(scene: &Scene, slope: f64) -> PlanError {
     };
     PlanError::Refused {
         key: key.to_owned(),
-        value: format!("{value:.4e} {unit}"),
+        value: format!("{} {unit}", beyond(value, most)),
         allowed: format!(
             "at most {most:.3e} {unit} with these bodies (a contact of half the radius in half-width; this one has {slope:.2e} of it: no half-space)"
         ),
     }
+}
+
+/// A bound as it is printed with so many digits after the first.
+fn rounded(bound: f64, digits: usize) -> f64 {
+    format!("{bound:.digits$e}").parse().unwrap_or(bound)
+}
+
+/// A value beyond a bound that is printed with four figures.
+fn beyond(value: f64, bound: f64) -> String {
+    let bound = rounded(bound, 3);
+    apart(value, bound, 4, |value, digits| {
+        format!("{value:.digits$e}")
+    })
 }
 
 fn too_thick(scene: &Scene, film: &FilmPlan) -> PlanError {
@@ -73,13 +87,15 @@ fn too_thick(scene: &Scene, film: &FilmPlan) -> PlanError {
             low = middle;
         }
     }
+    let most_m_s = speed_m_s.abs() * low.exp();
     PlanError::Refused {
         key: Knob::EntrainmentMS.key().to_owned(),
-        value: format!("{speed_m_s:.4e} m/s"),
+        value: format!("{} m/s", beyond(speed_m_s, most_m_s.copysign(speed_m_s))),
         allowed: format!(
-            "at most {:.3e} m/s with this oil, load and radius (a central film of Rx/8 = {most_m:.2e} m by formula; this one is {:.2e} m: no thin film), or a higher load",
-            speed_m_s.abs() * low.exp(),
-            film.central_m
+            "at most {most_m_s:.3e} m/s with this oil, load and radius (a central film of Rx/8 = {most_m:.2e} m by formula; this one is {} m: no thin film), or a higher load",
+            apart(film.central_m, rounded(most_m, 2), 2, |m, digits| format!(
+                "{m:.digits$e}"
+            ))
         ),
     }
 }

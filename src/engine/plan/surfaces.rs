@@ -1,7 +1,10 @@
 //! What the grid and the time step make of the waves on each body.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::{PlanError, Warning};
-use crate::math::number::fixed;
+use crate::math::number::{apart, fixed};
+use crate::physics::felt::felt;
 use crate::scene::{Doubt, Order, Scene, Surface};
 
 /// The waves of one body on the grid.
@@ -14,11 +17,22 @@ pub struct WavePlan {
     pub nodes: [f64; 2],
     /// Crests per metre along x, f = 1/Wx, of a height map the upcrossings of its level, 1/m.
     pub crests_per_m: f64,
+    /// Pressure per amplitude that flattens it, Pa/m.
+    pub flattening_pa_per_m: f64,
     /// Crests (of a height map: shortest waves) that pass a fixed place in one time step.
     pub crests_per_step: f64,
 }
 
 impl WavePlan {
+    /// How much a contact of that Hertz pressure feels of the crests at that amplitude, 0 to 1. What has no crests along x
+    /// but varies is felt.
+    pub fn felt(&self, amplitude_m: f64, p_hertz_pa: f64) -> f64 {
+        if self.flattening_pa_per_m == 0.0 {
+            return 1.0;
+        }
+        felt(self.flattening_pa_per_m * amplitude_m.abs() / p_hertz_pa)
+    }
+
     /// Widest gap between the phases in which `n` looks at a fixed place, `every` steps apart, meet the wave, in
     /// waves; 0 for a wave that does not pass.
     pub(super) fn widest_gap(&self, every: u64, n: u64) -> f64 {
@@ -101,6 +115,7 @@ pub(super) fn plan(
             amplitude_m: surface.amplitude_m(),
             nodes,
             crests_per_m: surface.crests_per_m(),
+            flattening_pa_per_m: FRAC_PI_2 * scene.e_prime_pa() * surface.crests_per_m(),
             crests_per_step: k_x * speed_ratio * step_m,
         });
     }
@@ -150,13 +165,15 @@ fn check_resolved(body: u8, surface: &Surface, spacing_m: [f64; 2]) -> Result<()
     } else {
         ("wavelength_y_m", wavelength_y_m)
     };
+    let least_m = value_m * NODES_MIN / nodes;
+    // Rounded down it might allow what is refused.
+    let least = apart(least_m, value_m, 3, |m, digits| format!("{m:.digits$e}"));
+    let nodes = apart(nodes, NODES_MIN, 1, |n, digits| format!("{n:.digits$}"));
     Err(PlanError::Refused {
         key: format!("body_{body}.surface.{name}"),
         value: format!("{value_m:e} m"),
         allowed: format!(
-            "at least {:.3e} m (4 nodes; now {} on a spacing of {} by {} µm), or more grid.nodes",
-            value_m * NODES_MIN / nodes,
-            fixed(nodes, 1),
+            "at least {least} m (4 nodes; now {nodes} on a spacing of {} by {} µm), or more grid.nodes",
             fixed(spacing_m[0] * 1e6, 2),
             fixed(spacing_m[1] * 1e6, 2),
         ),

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::Valleys;
 use crate::math::number::fixed;
-use crate::scene::{ContactKind, Doubt};
+use crate::scene::{ContactKind, Doubt, Scene, unusual};
 
 /// A stage that is left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -142,4 +142,23 @@ pub enum PlanError {
         /// What is allowed.
         allowed: String,
     },
+}
+
+impl PlanError {
+    /// The same with the key of the scene that is far from what is usual, if there is one: it may be the cause.
+    pub(super) fn beside_the_unusual(self, scene: &Scene) -> Self {
+        let Self::Refused {
+            key,
+            value,
+            mut allowed,
+        } = self;
+        if let Some(words) = unusual(scene) {
+            allowed = format!("{allowed}; {words}");
+        }
+        Self::Refused {
+            key,
+            value,
+            allowed,
+        }
+    }
 }

@@ -8,6 +8,8 @@ use super::error::{SceneError, nearest};
 use super::keys::{self, EVENT_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
 use super::model::{Event, Scene, Surface};
 use super::shape::{check_carried, check_force, check_hardness, check_load, check_shape};
+use super::wrong::refusal;
+use crate::math::number::apart;
 use crate::physics::gear::GearTeeth;
 
 /// Checks a whole table against the keys, whole numbers turned into floats where floats are meant.
@@ -202,12 +204,12 @@ fn check_value(full: &str, key: &Key, value: &mut Value) -> Result<(), SceneErro
     if fits {
         Ok(())
     } else {
-        Err(SceneError::value(full, shown(value), key.allowed()))
+        Err(refusal(full, key, value))
     }
 }
 
 /// A value as a user would write it.
-fn shown(value: &Value) -> String {
+pub(super) fn shown(value: &Value) -> String {
     match value {
         Value::Float(number) => short(*number),
         Value::Table(_) => "a table".to_owned(),
@@ -218,6 +220,13 @@ fn shown(value: &Value) -> String {
 
 /// Steepest slope for which half-space elasticity means anything.
 const SLOPE_MAX: f64 = 0.5;
+
+/// A slope that is too steep, with as many figures as say so.
+fn beyond(slope: f64) -> String {
+    apart(slope, SLOPE_MAX, 2, |slope, digits| {
+        format!("{slope:.digits$}")
+    })
+}
 
 /// The rules that tie keys together.
 pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
@@ -279,7 +288,8 @@ fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
                     joined(path, "amplitude_m"),
                     format!("{} m", short(amplitude_m)),
                     format!(
-                        "a slope 2 pi Rq/W of at most {SLOPE_MAX}; this one is {slope:.2}, W the shortest significant wave{}",
+                        "a slope 2 pi Rq/W of at most {SLOPE_MAX}; this one is {}, W the shortest significant wave{}",
+                        beyond(slope),
                         blame.map_or_else(String::new, |cause| format!("; {cause}"))
                     ),
                 ))
@@ -301,7 +311,8 @@ fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
             joined(path, "amplitude_m"),
             format!("{} m", short(amplitude_m)),
             format!(
-                "a slope 2 pi A/W of at most {SLOPE_MAX}; this one is {slope:.2} at W = {} m",
+                "a slope 2 pi A/W of at most {SLOPE_MAX}; this one is {} at W = {} m",
+                beyond(slope),
                 short(shortest)
             ),
         ));

@@ -331,6 +331,12 @@ mod tests {
         );
         values[6] = 5.0;
         assert!(why(&matrix(4, values.clone()), 1.0).is_some(), "5 m");
+        for (cell, short) in [(1e300, "1e300 in"), (-1e-300, ""), (f64::MAX, "1.797")] {
+            values[6] = cell;
+            let words = why(&matrix(4, values.clone()), 1.0).unwrap_or_default();
+            assert!(words.starts_with(short) && words.len() < 60, "{words}");
+        }
+        values[6] = 5.0;
         assert_eq!(why(&matrix(4, values), 1e-6), None);
     }
 }

@@ -185,7 +185,7 @@ impl Scene {
     ) -> Result<Self, SceneError> {
         let mut table = text
             .parse::<Table>()
-            .map_err(|error| syntax(origin, &error))?;
+            .map_err(|error| syntax_in(text, origin, &error))?;
         for setting in overrides {
             setting.apply(&mut table);
         }
@@ -194,7 +194,7 @@ impl Scene {
         // walks all presets and keys); an error is still better than a panic.
         let mut scene: Self = table.try_into().map_err(|error| syntax(origin, &error))?;
         scene.read_maps(folder)?;
-        check::check_rules(&scene)?;
+        check::check_rules(&scene).map_err(|error| error.beside_the_unusual(&scene))?;
         Ok(scene)
     }
 
@@ -263,7 +263,7 @@ impl Scene {
             reason: error.to_string(),
         })?;
         check::check_table(&mut table)?;
-        check::check_rules(self)
+        check::check_rules(self).map_err(|error| error.beside_the_unusual(self))
     }
 }
 
@@ -271,6 +271,19 @@ fn syntax(origin: &str, error: &toml::de::Error) -> SceneError {
     SceneError::Syntax {
         origin: origin.to_owned(),
         reason: error.to_string(),
+    }
+}
+
+/// Same, with what the line should have said where it holds a number that is written in another way.
+fn syntax_in(text: &str, origin: &str, error: &toml::de::Error) -> SceneError {
+    let start = error.span().map_or(0, |span| span.start);
+    let before = text.get(..start).unwrap_or_default();
+    let line = text.lines().nth(before.matches('\n').count());
+    let meant = line.and_then(super::wrong::meant_in_line);
+    let meant = meant.map_or_else(String::new, |words| format!("\n{words}"));
+    SceneError::Syntax {
+        origin: origin.to_owned(),
+        reason: format!("{}{meant}", error.to_string().trim_end()),
     }
 }
 

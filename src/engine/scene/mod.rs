@@ -22,6 +22,7 @@ mod numerics;
 pub mod presets;
 mod shape;
 mod tooth;
+mod wrong;
 
 pub(crate) use derived::side_m;
 pub use error::SceneError;
@@ -39,3 +40,4 @@ pub use model::{
 pub use numerics::{ErrorSource, Numerics, Order, OrderAsked, Time};
 pub use shape::MINIMUM_HARDNESS;
 pub use tooth::Tooth;
+pub(crate) use wrong::unusual;

@@ -5,6 +5,7 @@ use super::Knob;
 use super::error::SceneError;
 use super::keys::{joined, short};
 use super::model::{ContactKind, Scene, Surface};
+use crate::math::number::apart;
 
 /// Highest Hertz pressure that any material stands, Pa.
 const P_HERTZ_MAX_PA: f64 = 1e10;
@@ -165,8 +166,10 @@ pub(super) fn check_force(scene: &Scene, key: &str, force_n: f64) -> Result<(), 
         return Ok(());
     }
     let allowed = format!(
-        "a Hertz pressure of at most 10 GPa; this force makes {:.3} GPa",
-        p_max_pa * 1e-9
+        "a Hertz pressure of at most 10 GPa; this force makes {} GPa",
+        apart(p_max_pa * 1e-9, P_HERTZ_MAX_PA * 1e-9, 3, |gpa, digits| {
+            format!("{gpa:.digits$}")
+        })
     );
     Err(SceneError::value(
         key,

@@ -7,6 +7,7 @@
 //! map_doubtful   the best plane, or outlying pixels, of a height map are left in
 //! mesh_film      error of the smooth central film by the mesh > 5 %             at the knobs' present values
 //! short_domain   the same by the edges of the domain > 1 %                      likewise
+//! crests_not_felt  crests that press less than a thousandth of Hertz's pressure, of a count above 1
 //! model_range    greatest over least life of the choices > 2
 //! above_smooth   the whole band of life above 1.01
 //! ```
@@ -16,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Frame, Grounds, LifeEstimate, Metrics, Rhythm};
 use crate::math::number::sig;
+use crate::physics::felt::FELT;
 use crate::physics::strength::Strength;
 use crate::plan::{EDGES_WORTH_A_WORD, MOLECULE_M};
 use crate::scene::{Doubt, StressMeasure};
@@ -44,6 +46,8 @@ pub enum CautionCode {
     ShortDomain,
     /// A body stands (|S| = 2): lives are in the other's cycles, or the other's alone.
     StandingBody,
+    /// The formula counts crests that the contact does not feel.
+    CrestsNotFelt,
     /// Models and cycle bases differ by a large factor.
     ModelRange,
     /// Life is longer than the smooth contact's.
@@ -106,6 +110,7 @@ pub(super) fn list(m: &Metrics, grounds: &Grounds) -> Vec<Caution> {
     say(CautionCode::MeshFilm, mesh_film(grounds));
     say(CautionCode::ShortDomain, short_domain(grounds));
     say(CautionCode::StandingBody, standing(m, grounds));
+    say(CautionCode::CrestsNotFelt, crests_not_felt(m, grounds));
     say(CautionCode::ModelRange, model_range(m.life.as_ref()));
     say(CautionCode::AboveSmooth, above_smooth(m.life.as_ref()));
     say(CautionCode::NotSettled, not_settled(m, grounds));
@@ -293,6 +298,26 @@ fn not_settled(m: &Metrics, grounds: &Grounds) -> Option<String> {
     (grounds.has_life && !settled).then(|| why.to_owned())
 }
 
+/// Body 1 counts the crests of body 2, and the other way round.
+fn crests_not_felt(m: &Metrics, grounds: &Grounds) -> Option<String> {
+    let n = [m.n_body_1, m.n_body_2];
+    let unfelt = [1, 0].map(|mate: usize| {
+        let n = n[1 - mate].filter(|n| *n > 1.0 && grounds.felt[mate] < 1.0)?;
+        let (body, mate, n) = (2 - mate, mate + 1, sig(n, 3));
+        Some(format!(
+            "{n} contacts of body {body} by formula count crests of body {mate}"
+        ))
+    });
+    let unfelt: Vec<String> = unfelt.into_iter().flatten().collect();
+    (grounds.has_life && !unfelt.is_empty()).then(|| {
+        format!(
+            "{}, which press less than {} % of Hertz: the contact does not feel them, and the spread leaves them out",
+            unfelt.join(", "),
+            sig(100.0 * FELT, 1)
+        )
+    })
+}
+
 fn no_life(grounds: &Grounds) -> Option<String> {
     (!grounds.has_life).then(|| "no life in this scene: it has no [life]".to_owned())
 }
@@ -342,6 +367,7 @@ mod tests {
             ..Metrics::default()
         };
         let grounds = Grounds {
+            felt: [1.0; 2],
             steps: 100,
             p_max_greatest_pa: 3e9,
             sigma_eff_greatest_pa: Some(2e9),

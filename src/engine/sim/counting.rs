@@ -270,3 +270,12 @@ pub(super) fn contacts(
         kinematics.contacts(body, crests).per_cycle()
     })
 }
+
+/// How much a contact of `size` times the scene's feels of the crests of both bodies, 0 to 1, by those amplitudes.
+pub(super) fn felt(plan: &Plan, size: f64, amplitudes_m: [f64; 2]) -> [f64; 2] {
+    // The pressure grows as the half-width does.
+    let p_hertz_pa = plan.hertz.p_max_pa * size;
+    [0, 1].map(|body: usize| {
+        plan.waves[body].map_or(1.0, |wave| wave.felt(amplitudes_m[body], p_hertz_pa))
+    })
+}

@@ -31,6 +31,8 @@ use crate::solve::stress::{Loading, StressLaw};
 pub(super) struct Now {
     /// Contacts of both bodies; `None`: the body stands.
     pub(super) n: [Option<f64>; 2],
+    /// The same without crests that the contact does not feel.
+    pub(super) n_felt: [Option<f64>; 2],
     /// S.
     pub(super) slide_roll: f64,
     /// Hertz half-width over the scene's.

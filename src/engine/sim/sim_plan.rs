@@ -173,16 +173,18 @@ impl SimPlan {
 
     /// Relative error of stress by sampling: that of Hertz's edge, measured at 64 nodes a half-width (4e-4 of
     /// the integral, a tenth of it in stress), and of the shortest wave, (2π/nodes)²/12 of a ripple as high as
-    /// the mean; of bodies without amplitude none. An estimate, not a bound.
-    pub(super) fn stress_error(&self, amplitudes_m: [f64; 2]) -> f64 {
+    /// the mean; of waves that the contact does not feel none. An estimate, not a bound. `size`: Hertz half-width over the
+    /// scene's.
+    pub(super) fn stress_error(&self, amplitudes_m: [f64; 2], size: f64) -> f64 {
         let wave = |nodes: f64| (std::f64::consts::TAU / nodes).powi(2) / 12.0;
         let rough = self.decided.waves.iter().zip(amplitudes_m);
-        let waves = rough.filter_map(|(wave, amplitude_m)| wave.filter(|_| amplitude_m > 0.0));
-        let worst = waves
-            .flat_map(|w| w.nodes)
-            .filter(|nodes| nodes.is_finite())
-            .map(wave)
-            .fold(0.0, f64::max);
+        let p_hertz_pa = self.decided.hertz.p_max_pa * size;
+        let worst = rough.filter_map(|(plan, amplitude_m)| {
+            let plan = plan.filter(|_| amplitude_m > 0.0)?;
+            let nodes = plan.nodes.into_iter().filter(|nodes| nodes.is_finite());
+            Some(nodes.map(wave).fold(0.0, f64::max) * plan.felt(amplitude_m, p_hertz_pa))
+        });
+        let worst = worst.fold(0.0, f64::max);
         4e-5 + 0.5 * worst
     }
 }

@@ -1,8 +1,9 @@
 //! A sweep's folder: every case in a file of its own, written whole or not at all.
 //!
 //! ```text
-//! FOLDER/sweep.digest            the mark: format, digest of the sweep, build that fills the folder
-//! FOLDER/sweep.lock              held while somebody works in the folder
+//! FOLDER/sweep.digest            the mark: format, digest of the sweep, build that fills the folder; locked (shared) by
+//!                                everybody who works in the folder
+//! FOLDER/sweep.lock              locked by one who enters the folder
 //! FOLDER/sweep.toml              the sweep, with its scene in it
 //! FOLDER/base.toml               the scene that every case starts from, before its own keys are set
 //! FOLDER/cases/0000012.json      asperity case 1 <FNV-1a of the rest> \n { ... }
@@ -48,9 +49,13 @@ impl Folder {
     pub fn create(root: &Path, sweep: &Sweep, existing: Existing) -> Result<Self, SweepError> {
         std::fs::create_dir_all(root).map_err(|e| SweepError::folder(root, e))?;
         let mark = FolderMark::new(sweep.digest());
-        let found = mark::seen(root)?;
-        let is_same = found.as_ref() == Some(&mark);
-        refuse(root, &mark, found.as_ref(), existing)?;
+        let judged = || {
+            let found = mark::seen(root)?;
+            refuse(root, &mark, found.as_ref(), existing)?;
+            Ok(found.as_ref() == Some(&mark))
+        };
+        // Before a lock lies in a folder of somebody else's ...
+        let is_same = judged()?;
         if let Some(input) = mark::input_in_the_way(root, &sweep.inputs, is_same) {
             let reason = format!(
                 "the sweep would write over {}, which it reads; choose another --out",
@@ -59,6 +64,8 @@ impl Folder {
             return Err(SweepError::folder(root, reason));
         }
         let entry = Entry::new(root, existing)?;
+        // ... and once more when nobody else can begin: one may have since.
+        let is_same = judged()?;
         let mut folder = Self {
             root: root.to_owned(),
             mark,
@@ -80,7 +87,7 @@ impl Folder {
         if let Ok(scene) = sweep.base_scene() {
             folder.write_own(!is_same, "base.toml", &scene.to_toml())?;
         }
-        folder.lock = entry.share();
+        folder.lock = entry.share(root);
         Ok(folder)
     }
 

@@ -61,7 +61,8 @@ impl LifeStage {
         life.is_finite().then_some(life)
     }
 
-    /// Minimum and maximum life over the variants and cycle bases, and how many.
+    /// Minimum and maximum life over the variants and cycle bases, and how many. Crests that the contact does not feel are left
+    /// out of the formula's count: no choice of model makes them press.
     pub(super) fn spread(
         &self,
         now: &Now,
@@ -72,9 +73,13 @@ impl LifeStage {
         if self.asked.spread == Spread::Off {
             return (low, high, 1);
         }
+        let now = Now {
+            n: now.n_felt,
+            ..*now
+        };
         for variant in &self.variants {
             for basis in CycleBasis::ALL {
-                let lives = self.lives(variant, basis, now, counting);
+                let lives = self.lives(variant, basis, &now, counting);
                 if let Some((_, f)) = lives.and_then(|lives| self.governing(lives)) {
                     (low, high) = (low.min(f.relative), high.max(f.relative));
                     count += 1;

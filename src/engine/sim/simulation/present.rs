@@ -26,7 +26,8 @@ pub(super) fn has_reference_of_now(plan: &SimPlan, state: &State) -> bool {
 /// Relative error of stress by the mesh, of the bodies that are rough now.
 pub(super) fn stress_error_now(plan: &SimPlan, state: &State) -> f64 {
     let amplitudes = Knob::AMPLITUDES;
-    plan.stress_error(amplitudes.map(|knob| state.drive.get(knob).now))
+    let size = plan.size_now(&state.drive);
+    plan.stress_error(amplitudes.map(|knob| state.drive.get(knob).now), size)
 }
 
 /// What was measured of the committed step, its regime and mesh error.
@@ -84,6 +85,11 @@ pub(super) fn grounds(plan: &SimPlan, state: &State) -> Grounds {
         half_width_m: size * hertz.a_m.min(hertz.b_m),
         film_m: film.map(|film| film.central_m),
         flows,
+        felt: crate::sim::counting::felt(
+            &plan.decided,
+            size,
+            [state.metrics.amplitude_1_m, state.metrics.amplitude_2_m],
+        ),
         mesh_film: mesh_film.filter(|_| flows),
         short_domain: film.filter(|_| flows).map(|film| {
             let domain = &plan.decided.domain;

@@ -25,7 +25,7 @@ pub(super) fn mesh_errors(
     coarser.map(|coarser| MeshErrors {
         h_central: off(coarser.h_central, finer.h_central),
         h_min: off(coarser.h_min, finer.h_min),
-        p_max: off(coarser.p_max, finer.p_max) + plan.stress_error([1.0; 2]),
+        p_max: off(coarser.p_max, finer.p_max) + plan.stress_error([1.0; 2], 1.0),
     })
 }
 

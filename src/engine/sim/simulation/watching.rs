@@ -1,7 +1,8 @@
 //! What is looked at after each step: traction, stress, counts, life, scalars.
 
 use super::present::{has_reference_of_now, publish_lubrication, stress_error_now};
-use crate::sim::counting::contacts;
+use crate::physics::felt::felt_contacts;
+use crate::sim::counting::{contacts, felt};
 use crate::sim::fatigue_stage::Now;
 use crate::sim::measure::{Fields, Measured, measure};
 use crate::sim::roughness::Roughness;
@@ -179,10 +180,17 @@ pub(super) fn publish(
 
 /// Life as far as it is known.
 pub(super) fn life_estimate(plan: &SimPlan, state: &State) -> Option<LifeEstimate> {
+    let m = &state.metrics;
+    let size = plan.size_now(&state.drive);
+    let n = [m.n_body_1, m.n_body_2];
+    // Each body counts the crests of the other.
+    let [felt_1, felt_2] = felt(&plan.decided, size, [m.amplitude_1_m, m.amplitude_2_m]);
+    let n_felt = [(n[0], felt_2), (n[1], felt_1)];
     let now = Now {
-        n: [state.metrics.n_body_1, state.metrics.n_body_2],
+        n,
+        n_felt: n_felt.map(|(n, weight)| Some(felt_contacts(n?, weight))),
         slide_roll: state.metrics.slide_roll,
-        size: plan.size_now(&state.drive),
+        size,
         stress_error: stress_error_now(plan, state),
         has_reference: has_reference_of_now(plan, state),
     };

@@ -184,11 +184,11 @@ fn take_away(folder: &Path, such: impl Fn(&str) -> bool) -> Result<(), SweepErro
 #[derive(Debug, Clone)]
 pub(super) struct Lock(#[expect(dead_code, reason = "held")] Option<Arc<File>>);
 
-/// An entry into a folder, before other shards are let in.
+/// An entry into a folder: nobody else comes in before [`Entry::share`].
 pub(super) struct Entry {
     /// `None`: the system knows no locks.
     file: Option<File>,
-    /// Nobody else is there, nor can come in before [`Entry::share`].
+    /// Nobody else is there.
     pub(super) is_alone: bool,
 }
 
@@ -204,30 +204,37 @@ impl Entry {
         let mut options = OpenOptions::new();
         options.read(true).write(true).create(true).truncate(false);
         let file = options.open(&path).map_err(failed)?;
-        let (file, is_alone) = match file.try_lock() {
-            Ok(()) => (Some(file), true),
-            Err(TryLockError::Error(_)) => (None, false),
-            Err(TryLockError::WouldBlock) if existing == Existing::Resume => {
-                // Whoever begins lets others in at once.
-                let shared = file.lock_shared();
-                (shared.ok().map(|()| file), false)
-            }
-            Err(TryLockError::WouldBlock) => {
-                let reason = "another sweep is working in it; --resume and --shard join it";
-                return Err(SweepError::folder(root, reason));
-            }
+        let locked = if existing == Existing::Resume {
+            // Whoever begins lets others in at once.
+            file.lock().map_err(TryLockError::Error)
+        } else {
+            file.try_lock()
         };
-        Ok(Self { file, is_alone })
+        let is_entering = matches!(locked, Err(TryLockError::WouldBlock));
+        let is_there = is_entering || is_held(&root.join(MARK));
+        if is_there && existing != Existing::Resume {
+            let reason = "another sweep is working in it; --resume and --shard join it";
+            return Err(SweepError::folder(root, reason));
+        }
+        Ok(Self {
+            is_alone: locked.is_ok() && !is_there,
+            file: locked.is_ok().then_some(file),
+        })
     }
 
-    /// Lets other shards in.
-    pub(super) fn share(self) -> Lock {
-        let file = self.file.filter(|file| {
-            // Taken at once, or by one that begins here, who will find cases or let us in.
-            !self.is_alone || file.unlock().and_then(|()| file.lock_shared()).is_ok()
-        });
-        Lock(file.map(Arc::new))
+    /// Lets others in. That somebody is there they see by the mark: a lock on the way in would have to be given up and
+    /// taken again, and one who comes in between would believe himself alone.
+    pub(super) fn share(self, root: &Path) -> Lock {
+        let mark = open_plain(&root.join(MARK)).ok();
+        let mark = mark.filter(|mark| self.file.is_some() && mark.lock_shared().is_ok());
+        Lock(mark.map(Arc::new))
     }
+}
+
+/// Whether somebody works in the folder with that mark.
+fn is_held(mark: &Path) -> bool {
+    let tried = open_plain(mark).map(|mark| mark.try_lock());
+    matches!(tried, Ok(Err(TryLockError::WouldBlock)))
 }
 
 impl Lock {

@@ -66,6 +66,7 @@ fn name(caution: &Caution) -> &'static str {
         CautionCode::MeshFilm => "coarse mesh",
         CautionCode::ShortDomain => "short domain",
         CautionCode::StandingBody => "a body stands",
+        CautionCode::CrestsNotFelt => "crests not felt",
         CautionCode::ModelRange => "choices differ",
         CautionCode::AboveSmooth => "above smooth",
         CautionCode::NotSettled => "not settled",
