@@ -278,7 +278,8 @@ impl Key {
             | Kind::Number(..)
             | Kind::EitherSign(..)
             | Kind::NumberOrInf(..)
-            | Kind::Choice(_) => false,
+            | Kind::Choice(_)
+            | Kind::Switch => false,
         }
     }
 
@@ -292,7 +293,8 @@ impl Key {
             | Kind::Number(..)
             | Kind::EitherSign(..)
             | Kind::NumberOrInf(..)
-            | Kind::Choice(_) => self.kind.takes(number),
+            | Kind::Choice(_)
+            | Kind::Switch => self.kind.takes(number),
         }
     }
 }
