@@ -214,6 +214,9 @@ pub(crate) struct SceneArgs {
     /// Length of the run after the start-up, in passages of 4 a at speed U (sets time.passages)
     #[arg(long, value_name = "N")]
     pub(crate) passages: Option<f64>,
+    /// Nodes per side of the last mesh, 2^k + 1 (sets grid.nodes): fewer for the impatient
+    #[arg(long, value_name = "N")]
+    pub(crate) nodes: Option<u16>,
 }
 
 /// How to run it and what to write.
@@ -289,7 +292,7 @@ pub(crate) struct HeadlessArgs {
     pub(crate) from_state: Option<PathBuf>,
     /// Repeat a recording: its scene, every knob turned at the same step as then; a damaged one exactly or not at all, that
     /// of a killed run as far as it goes
-    #[arg(long, value_name = "FILE.rrd", conflicts_with_all = ["scene", "settings", "passages", "from_state"])]
+    #[arg(long, value_name = "FILE.rrd", conflicts_with_all = ["scene", "settings", "passages", "nodes", "from_state"])]
     pub(crate) from: Option<PathBuf>,
     /// Run at two or three values of a key and record the runs side by side, such as motion.slide_roll=0,0.5
     #[arg(long, value_name = "KEY=A,B", conflicts_with_all = ["from", "from_state", "save_state", "table", "summary",

@@ -28,6 +28,9 @@ fn load(args: &SceneArgs) -> Result<Scene, SceneError> {
     if let Some(passages) = args.passages {
         overrides.push(Override::number("time.passages", passages)?);
     }
+    if let Some(nodes) = args.nodes {
+        overrides.push(format!("grid.nodes={nodes}").parse()?);
+    }
     Scene::load_with(&args.scene, &overrides)
 }
 

@@ -88,7 +88,7 @@ fn bad_input_is_refused_with_key_value_and_range() {
         ),
         (
             "contact.rx_m=19 mm",
-            &["contact.rx_m = \"19 mm\"", "1e-6 to 100 m"],
+            &["contact.rx_m = \"19 mm\"", "a number, without a unit, in m"],
         ),
         (
             "contact.kind=disc",

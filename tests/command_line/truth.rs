@@ -16,10 +16,9 @@ use std::time::Duration;
 use crate::common::tui_fixture::{plain, setup_planned};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{ContactKind, Override, Scene, presets};
-use asperity_engine::sim::{Frame, Simulation};
 use asperity_explorer::tui::app::{App, Leading};
 use asperity_explorer::tui::view;
-use asperity_session::run::share_out;
+use asperity_session::run::{Ending, Request, Session, share_out};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use re_chunk::Chunk;
@@ -305,19 +304,24 @@ impl Screen {
         let sets: Vec<Override> = case.sets.iter().map(|text| text.parse().unwrap()).collect();
         let scene = Scene::load_with(&case.scene, &sets).unwrap();
         let (kind, plan) = (scene.kind(), Plan::new(&scene).unwrap());
-        let mut sim = Simulation::new(&scene, plan.clone(), 1).unwrap();
         let mut app = App::new(
             setup_planned(&scene, &case.scene, &plan),
             Vec::new(),
             plain(),
         );
-        while !sim.is_done() {
-            sim.step().unwrap();
-        }
-        let mut frame = Frame::default();
-        sim.fill(&mut frame);
+        let session = Session::start(Request {
+            name: String::new(),
+            scene: Arc::new(scene),
+            plan,
+            threads: 1,
+            watchers: Vec::new(),
+            ending: Ending::Passages,
+        });
+        let session = session.unwrap();
+        let handle = session.handle.clone();
+        session.join().unwrap();
         app.tick(Duration::from_millis(25));
-        app.take_frame(Arc::new(frame));
+        app.take_frame(handle.latest().take().unwrap());
         let mut terminal = Terminal::new(TestBackend::new(SIZE.0, SIZE.1)).unwrap();
         terminal.draw(|frame| view::draw(&app, frame)).unwrap();
         let buffer = terminal.backend().buffer();

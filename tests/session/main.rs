@@ -1,5 +1,6 @@
 //! The loop around a simulation, without a screen or a recorder: commands, outputs, every way to end; errors of the mesh.
 
+mod bands;
 #[path = "../common/engine.rs"]
 mod common;
 mod discretisation;

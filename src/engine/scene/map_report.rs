@@ -274,7 +274,7 @@ impl Doubt {
     pub fn of_amplitude(amplitude_m: f64, half_width_m: f64) -> Option<Self> {
         if 0.0 < amplitude_m && amplitude_m < ATOM_M {
             Some(Self::Low { amplitude_m })
-        } else if amplitude_m > ROUGHNESS * half_width_m {
+        } else if half_width_m > 0.0 && amplitude_m > ROUGHNESS * half_width_m {
             Some(Self::High {
                 amplitude_m,
                 half_width_m,

@@ -16,13 +16,13 @@ impl App {
 
     /// Which number leads: what was simulated, where that holds for where the knobs are.
     pub fn leading(&self) -> Leading {
-        let settled = self.life().is_some_and(|life| life.settled);
-        let passes = self
-            .frame()
-            .is_some_and(|frame| frame.stage == Stage::Passage);
-        if settled && !self.choice.dials.iter().any(Dial::is_moving) {
+        let passes = (self.frame()).is_some_and(|frame| frame.stage == Stage::Passage);
+        // A life under knobs that walk is of neither end.
+        let walks = self.choice.dials.iter().any(Dial::is_moving);
+        let life = self.life().filter(|_| !walks);
+        if life.is_some_and(|life| life.settled) {
             Leading::Simulated
-        } else if passes && self.life().is_some() {
+        } else if passes && life.is_some() {
             Leading::Settling
         } else if self.lives.anchor.is_some() {
             Leading::Scaled

@@ -144,7 +144,10 @@ fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
         }
         (leading, life) => {
             let settling = match life {
-                Some(_) if leading == Leading::Settling => mesh(app) + "not settled",
+                Some(_) if leading == Leading::Settling => match beside {
+                    Beside::Source => mesh(app) + "not settled",
+                    Beside::Nothing => mesh(app),
+                },
                 Some(life) => format!("settling {}", sig(life.life_relative, 2)),
                 None => "not simulated".to_owned(),
             };
