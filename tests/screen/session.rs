@@ -116,7 +116,8 @@ fn a_thousand_mashed_commands_never_break_the_run_and_the_log_replays_it() {
 }
 
 fn until_settled(session: &Session) -> Arc<Settled> {
-    wait_for(session, |session| session.handle.settled().is_some());
+    let is_last = |session: &Session| (session.handle.settled()).is_some_and(|one| one.is_last);
+    wait_for(session, is_last);
     session.handle.settled().unwrap()
 }
 

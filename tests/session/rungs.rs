@@ -88,10 +88,10 @@ const CASES: [(&str, &[&str]); 7] = [
     ("mtm_ball_on_disc", &["body_1.young_pa=7e10"]),
     ("micropitting_rig", &["motion.slide_roll=0"]),
     (
-        "ball_bearing",
+        "demonstration_quick",
         &[
             "body_1.surface.wavelength_x_m=inf",
-            "body_1.surface.wavelength_y_m=1e-4",
+            "body_1.surface.wavelength_y_m=4e-4",
             "body_2.surface.kind=smooth",
         ],
     ),

@@ -168,6 +168,16 @@ impl SettlingSteps {
         }
     }
 
+    /// Same of a steady contact, which has no passage in which what long steps have left leaves it: as long as a start-up's
+    /// development, and all but the first of it in short steps.
+    pub(super) fn of_steady(walk: f64, dt: f64) -> Self {
+        Self {
+            coarse: (walk / (COARSE * dt)).ceil() as u64,
+            fine: (DEVELOP / dt).ceil() as u64,
+            dt,
+        }
+    }
+
     /// In a.
     pub(super) fn length(&self) -> f64 {
         (COARSE * self.coarse as f64 + self.fine as f64) * self.dt

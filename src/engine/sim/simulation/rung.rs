@@ -4,7 +4,8 @@
 //! contact     pressure, film and masses of the coarser run, interpolated; H0 and the places of both bodies as they are
 //! skins       what has flowed, at the new columns
 //! reference   the smooth contact, interpolated and made steady on this mesh: first of all, while the rough one waits
-//! settle      1.6 a at U ([`super::follow`]): what the interpolation disturbed leaves the contact, then the passage begins
+//! settle      1.6 a at U ([`super::follow`]), a steady contact 4 a: what the interpolation disturbed leaves the contact, then
+//!             the passage begins
 //! ```
 //! Bilinear interpolation leaves load and mass, sums by the trapezoidal rule, as they are. Averages, counts and the search
 //! for an orbit begin anew. The base of the lives moves with the reference: what a load costs is a ratio of two smooth
@@ -16,7 +17,7 @@
 use super::follow::{SettlingSteps, cold_distances};
 use super::present::conditions;
 use super::watching::{publish, see_again};
-use crate::plan::Plan;
+use crate::plan::{Plan, TimeDependence};
 use crate::scene::{Scene, Surface};
 use crate::sim::measure::{Fields, Measured, RowSums, measure};
 use crate::sim::motion::Travel;
@@ -67,7 +68,11 @@ pub(super) fn climb(
         at,
         left: plan.smooth_steps(fine.nx, plan.decided.has_flow()),
     });
-    let settling = SettlingSteps::new(state.drive.walk_left(), plan.usual_dt());
+    let (walk, dt) = (state.drive.walk_left(), plan.usual_dt());
+    let settling = match plan.decided.time_dependence {
+        TimeDependence::Steady { .. } => SettlingSteps::of_steady(walk, dt),
+        TimeDependence::Transient => SettlingSteps::new(walk, dt),
+    };
     state.motion.disturb(settling.length());
     state.phase = settling.phase();
     let smooth_steps = state.smooth.as_ref().map_or(0, |smooth| smooth.left);
