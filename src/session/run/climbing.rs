@@ -11,7 +11,7 @@
 use std::sync::Arc;
 
 use super::driver::{Driver, Leg, script_of};
-use super::errors::set_errors;
+use super::errors::{life_error, set_errors};
 use super::ladder::{Ladder, Mesh};
 use super::outcome::End;
 use super::request::Ending;
@@ -158,15 +158,23 @@ impl Driver {
     fn compare(&self, summary: &mut Summary, mesh: &Mesh) {
         let is_asked = mesh.scene.numerics.error_estimate == ErrorSource::Companion;
         if let Some(below) = self.climb.below.as_ref().filter(|_| is_asked) {
-            set_errors(summary, below, &mesh.plan);
+            set_errors(summary, below, &mesh.scene, &mesh.plan);
         }
     }
 
-    /// Life on the mesh below, which the band of this one's is drawn from.
-    pub(super) fn life_below(&self) -> Option<f64> {
+    /// Gives a life the band that the mesh below says.
+    pub(super) fn widen(&self, life: &mut LifeEstimate) {
         let is_asked = self.context.scene.numerics.error_estimate == ErrorSource::Companion;
-        let below = self.climb.below.as_ref().filter(|_| is_asked)?;
-        below.life_relative
+        let below = self.climb.below.as_ref().filter(|_| is_asked);
+        let ladder = self.ladder.as_ref();
+        let mesh = ladder.and_then(|ladder| ladder.mesh(self.climb.nodes));
+        if let (Some(below), Some((mesh, _))) = (below.and_then(|one| one.life_relative), mesh) {
+            let error = life_error(life.life_relative, below, &mesh.scene, &mesh.plan);
+            if error.is_finite() {
+                life.life_relative_low = life.life_relative * (-error).exp();
+                life.life_relative_high = life.life_relative * error.exp();
+            }
+        }
     }
 
     fn push_rung(&mut self, summary: &Summary) {
@@ -198,15 +206,6 @@ impl Driver {
 
 fn has_begun(sim: &Simulation) -> bool {
     sim.stage() == Stage::Passage
-}
-
-/// The band of a life: what the mesh below is apart from it.
-pub(super) fn widen(life: &mut LifeEstimate, below: f64) {
-    let apart = (life.life_relative / below).ln().abs();
-    if apart.is_finite() {
-        life.life_relative_low = life.life_relative * (-apart).exp();
-        life.life_relative_high = life.life_relative * apart.exp();
-    }
 }
 
 /// The ladder of a run that goes by itself.

@@ -18,6 +18,7 @@ pub struct Companion {
     /// Its nodes per side.
     pub nodes: usize,
     /// Of the run that it goes with.
+    scene: Scene,
     plan: Plan,
 }
 
@@ -45,6 +46,7 @@ impl Companion {
         Ok(Self {
             session,
             nodes,
+            scene: scene.clone(),
             plan: plan.clone(),
         })
     }
@@ -62,7 +64,7 @@ impl Companion {
         else {
             return Err(NoEstimate::Unfinished);
         };
-        set_errors(summary, coarse, &self.plan);
+        set_errors(summary, coarse, &self.scene, &self.plan);
         Ok(outcome)
     }
 }

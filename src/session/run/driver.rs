@@ -5,7 +5,6 @@ use std::sync::Arc;
 use std::sync::mpsc::TryRecvError;
 
 use super::checkpoint::Checkpoint;
-use super::climbing::widen;
 use super::clock::Clock;
 use super::command::{AppliedCommand, Command, HandTurn};
 use super::handle::RunLink;
@@ -562,12 +561,13 @@ impl Driver {
     /// Gives the step to the screen, and to the outputs if it belongs to the results.
     fn hand_out(&mut self, sim: &Simulation) {
         let (on_top, before) = (self.is_on_top(), self.shown_before);
-        let below = self.life_below();
+        let mut life = sim.metrics().life;
+        if let Some(life) = &mut life {
+            self.widen(life);
+        }
         let frame = self.pool.fill(|frame| {
             sim.fill(frame);
-            if let (Some(below), Some(life)) = (below, &mut frame.metrics.life) {
-                widen(life, below);
-            }
+            frame.metrics.life = life;
             if on_top && frame.stage == Stage::Passage {
                 frame.step += before.steps;
                 frame.time_s += before.time_s;

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! central film     |h(dx) − h(2dx)|
-//! life             |ln L(dx) − ln L(2dx)|
+//! life             |ln L(dx) − ln L(2dx)| + min(c (2π/n)²/48, |ln L|/10)
 //! minimum film     2 |h(dx) − h(2dx)|
 //! maximum p        2 |p(dx) − p(2dx)| + p_h (dx/a)²/8 + (p − p_h) (2π/n)²/8        n nodes of the shortest wave
 //! ```
@@ -97,11 +97,17 @@ const EXTREMES: f64 = 2.0;
 
 /// Writes the errors into the summary of a run by `plan`, from that of a run on half the nodes; the band of life becomes
 /// theirs.
-pub(super) fn set_errors(fine: &mut Summary, coarse: &Summary, plan: &Plan) {
-    set_by(fine, coarse, Crest::of(plan), plan.order);
+pub(super) fn set_errors(fine: &mut Summary, coarse: &Summary, scene: &Scene, plan: &Plan) {
+    let life = |(life, below)| life_error(life, below, scene, plan);
+    set_by(fine, coarse, (Crest::of(plan), plan.order), life);
 }
 
-fn set_by(fine: &mut Summary, coarse: &Summary, crest: Crest, order: Order) {
+fn set_by(
+    fine: &mut Summary,
+    coarse: &Summary,
+    (crest, order): (Crest, Order),
+    life_error: impl Fn((f64, f64)) -> f64,
+) {
     let limit = |fine: f64, coarse: f64| limit(fine, coarse, order);
     let apart = |one: f64, two: f64| (one - two).abs();
     fine.error_h_central_m = Some(apart(fine.h_central_m, coarse.h_central_m));
@@ -119,13 +125,24 @@ fn set_by(fine: &mut Summary, coarse: &Summary, crest: Crest, order: Order) {
     let frictions = apart(fine.friction_coefficient, coarse.friction_coefficient);
     fine.error_friction_coefficient = Some(EXTREMES * frictions);
     let lives = fine.life_relative.zip(coarse.life_relative);
-    fine.error_ln_life = lives.map(|(one, two)| (one / two).ln().abs());
+    fine.error_ln_life = lives.map(life_error);
     fine.h_central_extrapolated_m = Some(limit(fine.h_central_m, coarse.h_central_m));
     fine.life_extrapolated = lives.map(|(one, two)| limit(one.ln(), two.ln()).exp());
     if let (Some(life), Some(error)) = (fine.life_relative, fine.error_ln_life) {
         fine.life_relative_low = Some(life * (-error).exp());
         fine.life_relative_high = Some(life * error.exp());
     }
+}
+
+/// Part of ln L that the stress of one mesh may miss beside what two meshes are apart: they may agree by chance.
+const SAMPLED: f64 = 0.1;
+
+/// Error of ln `life` on a mesh by `plan`, from that on the mesh `below`.
+pub(super) fn life_error(life: f64, below: f64, scene: &Scene, plan: &Plan) -> f64 {
+    let apart = (life / below).ln().abs();
+    let exponent = scene.life.as_ref().map_or(0.0, |life| life.stress_exponent);
+    let ripple = (std::f64::consts::TAU / fewest_wave_nodes(plan)).powi(2) / 48.0;
+    apart + (exponent * ripple).min(SAMPLED * life.ln().abs())
 }
 
 /// Where a sequence of this order ends.
@@ -183,7 +200,8 @@ mod tests {
             hertz: 0.0,
             ripple: 0.0,
         };
-        set_by(&mut fine, &coarse, crest, Order::Second);
+        let apart = |(one, two): (f64, f64)| (one / two).ln().abs();
+        set_by(&mut fine, &coarse, (crest, Order::Second), apart);
         assert!((fine.error_h_central_m.expect("set") - 0.1).abs() < 1e-12);
         assert!((fine.life_relative_low.expect("set") - 0.4).abs() < 1e-12);
         assert!((fine.life_relative_high.expect("set") - 0.625).abs() < 1e-12);
