@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use asperity_engine::scene::{Knob, presets};
 use asperity_picture::export::Format;
-use asperity_session::sweep::Shard;
+use asperity_session::sweep::ChainList;
 use clap::{Args, Parser, Subcommand};
 
 pub(crate) use self::recordings::{BesideValues, CompareArgs, CompareBy, ExportArgs};
@@ -154,13 +154,13 @@ pub(crate) struct SweepArgs {
     /// Built-in sweep, or TOML file
     #[arg(required = true)]
     pub(crate) sweep: Option<String>,
-    /// Part of the sweep to run: i of n, from 1
-    #[arg(long, value_name = "I/N", default_value = "1/1")]
-    pub(crate) shard: Shard,
+    /// Run these chains only, such as 3 or 0,4-7, for an engine that shares them out; makes no table
+    #[arg(long, value_name = "ID")]
+    pub(crate) chain: Option<ChainList>,
     /// Folder for cases, table and plots [default: ./NAME.sweep]
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Continue where the folder's cases end
+    /// Continue where the folder's cases end, or help whoever works in it
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
     /// Delete existing cases in the folder
@@ -170,7 +170,7 @@ pub(crate) struct SweepArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
     /// Also run every case cold, as asperity run would, and print what the chains save
-    #[arg(long, conflicts_with = "shard")]
+    #[arg(long, conflicts_with = "chain")]
     pub(crate) compare_cold: bool,
     /// Print one of these about the sweep instead of running it
     #[arg(long, value_enum, value_name = "WHAT")]
@@ -184,6 +184,8 @@ pub(crate) enum SweepShown {
     File,
     /// What closed-form formulas give for every case, as CSV
     Points,
+    /// The chains with their cases, estimated seconds on one core and memory, as CSV
+    Manifest,
     /// A scene that follows a [gear] path in real time, for asperity run and its recording
     Ride,
 }
@@ -191,9 +193,14 @@ pub(crate) enum SweepShown {
 /// What else there is to do with a sweep.
 #[derive(Debug, Subcommand)]
 pub(crate) enum SweepCommand {
-    /// Merge the cases of shards into one table, and name what is missing
+    /// Say how far the sweep in a folder is, who works on it and what is left
+    Status {
+        /// The sweep's folder
+        folder: PathBuf,
+    },
+    /// Merge the cases of folders into one table, and name what is missing
     Collect {
-        /// Folders that shards have filled
+        /// Folders with cases of one sweep
         #[arg(required = true, value_name = "FOLDER")]
         folders: Vec<PathBuf>,
         /// Folder for table and plots [default: the first]

@@ -216,7 +216,12 @@ impl From<SweepError> for Failure {
             )),
             SweepError::Case { .. } | SweepError::Plan { .. } => Self::input(miette!(
                 code = "sweep",
-                help = "every case is checked before the first runs; asperity check SCENE prints the plan of one",
+                help = "a thousand cases are checked before the first runs, the others when their turn comes; finished ones are kept",
+                "{error}"
+            )),
+            SweepError::Chain { .. } => Self::input(miette!(
+                code = "sweep",
+                help = "asperity sweep SWEEP --show manifest lists the chains",
                 "{error}"
             )),
             SweepError::Incomplete { .. } => Self::stalled(miette!(

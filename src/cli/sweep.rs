@@ -7,8 +7,8 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use asperity_session::sweep::{
-    CaseEnd, ColdComparison, Existing, Folder, Progress, Rows, Shard, Sweep, SweepError,
-    against_cold, cost, points, points_csv, run,
+    CaseEnd, ColdComparison, Existing, Folder, Progress, Report, Rows, Status, Sweep, SweepError,
+    Work, against_cold, manifest, points, points_csv, run,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -20,10 +20,12 @@ use super::signals::stop_on_signals;
 /// Exit code of a sweep that somebody stopped.
 const STOPPED: u8 = 5;
 
-/// Runs a sweep or a part of one, or merges parts.
+/// Runs a sweep or a part of one, merges parts, or looks at one.
 pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
-    if let Some(SweepCommand::Collect { folders, out }) = &args.command {
-        return collect(folders, out.as_deref());
+    match &args.command {
+        None => {}
+        Some(SweepCommand::Status { folder }) => return status(folder),
+        Some(SweepCommand::Collect { folders, out }) => return collect(folders, out.as_deref()),
     }
     // clap has refused a line without one.
     let sweep = Sweep::load(args.sweep.as_deref().unwrap_or_default())?;
@@ -38,63 +40,117 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     let existing = match (args.resume, args.force) {
         (true, _) => Existing::Resume,
         (_, true) => Existing::Replace,
-        // Shards of one sweep fill one folder side by side.
-        _ if args.shard != Shard::WHOLE => Existing::Resume,
+        // Those who were given chains of one sweep fill one folder side by side.
+        _ if args.chain.is_some() => Existing::Resume,
         _ => Existing::Refuse,
     };
     let progress = Arc::new(Progress::default());
-    watch_signals(&progress)?;
+    watch_signals(&progress, sweep.len())?;
     let folder = Folder::create(&root, &sweep, existing)?;
     let threads = threads(args.threads);
-    let (cases, cost) = cost(&sweep, args.shard)?;
-    tell(&format!(
-        "{cases} cases, an estimated {} on one core from cold starts",
-        cost.time_text()
-    ));
+    let Some(work) = Work::plan(&sweep, args.chain.as_ref(), &progress.stop)? else {
+        return Ok(say_stopped(&progress, sweep.len()));
+    };
+    tell(&format!("{}, {}", counted(&work), estimated(&work)));
     let began = Instant::now();
     let report = with_bar(&progress, "", || {
-        run(&sweep, &folder, args.shard, threads, &progress)
+        run(&sweep, &folder, &work, threads, &progress)
     })?;
     let sweep_s = began.elapsed().as_secs_f64();
     if report.stopped {
-        let (done, all) = (progress.done.load(Ordering::Relaxed), sweep.len());
-        tell(&format!(
-            "stopped with {done} of {all} cases; they are kept, --resume continues"
-        ));
-        return Ok(STOPPED);
+        return Ok(say_stopped(&progress, sweep.len()));
     }
-    let rows = match Rows::gather(&sweep, std::slice::from_ref(&folder)) {
-        Ok(rows) => rows,
-        Err(error @ SweepError::Incomplete { .. }) if args.shard != Shard::WHOLE => {
-            print(&format!(
-                "shard {}/{}: {} cases computed; {error}\n",
-                args.shard.index, args.shard.count, report.computed
-            ))?;
-            return Ok(0);
-        }
-        Err(error) => return Err(error.into()),
-    };
+    if args.chain.is_some() || report.held > 0 {
+        print(&left_to_others(&report, &folder))?;
+        return Ok(0);
+    }
+    let rows = Rows::gather(&sweep, std::slice::from_ref(&folder))?;
     let code = finish(&sweep, &rows, &folder)?;
-    if args.compare_cold {
-        let began = Instant::now();
-        let against = with_bar(&progress, "cold, ", || {
-            against_cold(&sweep, &rows, threads, &progress)
-        })?;
-        let Some(against) = against else {
-            return Ok(STOPPED);
-        };
-        print(&comparison(&sweep, &against))?;
-        // Of a sweep that went on where it was broken off the clock tells nothing.
-        if report.computed == sweep.len() {
-            let cold_s = began.elapsed().as_secs_f64();
-            print(&format!(
-                "wall time on {threads} threads, writing included: sweep {sweep_s:.1} s, cold {cold_s:.1} s: {:.2} times \
-                 faster\n",
-                cold_s / sweep_s
-            ))?;
-        }
+    if !args.compare_cold {
+        return Ok(code);
+    }
+    let began = Instant::now();
+    let against = with_bar(&progress, "cold, ", || {
+        against_cold(&sweep, &rows, threads, &progress)
+    })?;
+    let Some(against) = against else {
+        return Ok(STOPPED);
+    };
+    print(&comparison(&sweep, &against))?;
+    // Of a sweep that went on where it was broken off the clock tells nothing.
+    if report.computed == sweep.len() {
+        let cold_s = began.elapsed().as_secs_f64();
+        print(&format!(
+            "wall time on {threads} threads, writing included: sweep {sweep_s:.1} s, cold {cold_s:.1} s: {:.2} times \
+             faster\n",
+            cold_s / sweep_s
+        ))?;
     }
     Ok(code)
+}
+
+/// How much work that is.
+fn counted(work: &Work) -> String {
+    format!("{} cases in {} chains", work.cases, work.chains())
+}
+
+/// How long it takes.
+fn estimated(work: &Work) -> String {
+    let some = if work.is_sampled {
+        ", by a thousand of them"
+    } else {
+        ""
+    };
+    format!(
+        "an estimated {} on one core from cold starts{some}",
+        work.cost.time_text()
+    )
+}
+
+/// What one says who has done what there was to do for him, and leaves the table to somebody else.
+fn left_to_others(report: &Report, folder: &Folder) -> String {
+    let held = match report.held {
+        0 => String::new(),
+        held => format!("; others work on {held} chains"),
+    };
+    format!(
+        "{} cases computed{held}; asperity sweep collect {} makes the table when all are there\n",
+        report.computed,
+        folder.root().display()
+    )
+}
+
+/// Says how far the sweep in a folder is.
+fn status(root: &Path) -> Result<u8, Failure> {
+    let sweep = Folder::sweep_in(root)?;
+    let folder = Folder::open(root, &sweep)?;
+    let status = Status::of(&sweep, &folder)?;
+    let left = &status.left;
+    let mut text = format!(
+        "done      {} of {} cases, {} of {} chains\n",
+        status.cases,
+        sweep.len(),
+        status.chains,
+        status.chains + left.chains()
+    );
+    for claim in &status.claimed {
+        let how = if claim.is_alive {
+            "under way"
+        } else {
+            "left by  "
+        };
+        let _ = writeln!(text, "{how} chain {} {}", claim.chain, claim.by);
+    }
+    if left.chains() > 0 {
+        let _ = writeln!(text, "not done  {}, {}", counted(left), estimated(left));
+    }
+    let table = root.join("table.csv");
+    let _ = match table.exists() {
+        true => writeln!(text, "table     {}", table.display()),
+        false => writeln!(text, "table     none yet"),
+    };
+    print(&text)?;
+    Ok(0)
 }
 
 /// Prints of a sweep what was asked for in place of running it.
@@ -105,6 +161,7 @@ fn show_of(sweep: &Sweep, shown: SweepShown) -> Result<(), Failure> {
             tell(&format!("{} cases", sweep.len()));
             print_lines(points(sweep))
         }
+        SweepShown::Manifest => print_lines(manifest(sweep)),
         SweepShown::Ride => match sweep.ride()? {
             Some(scene) => Ok(print(&scene.to_toml())?),
             None => Err(Failure::input(miette::miette!(
@@ -214,8 +271,12 @@ fn comparison(sweep: &Sweep, against: &ColdComparison) -> String {
     text
 }
 
-/// Ctrl-C ends the sweep after the present steps; a second one ends the program.
-fn watch_signals(progress: &Arc<Progress>) -> Result<(), Failure> {
+/// How long the present steps have to end by themselves.
+const PATIENCE: Duration = Duration::from_millis(600);
+
+/// Ctrl-C ends the sweep after the present steps; a second one ends the program. Whatever takes longer, a step on a fine mesh
+/// or the table of a million cases, is given up: what is finished is on the disk, and no file is there by half.
+fn watch_signals(progress: &Arc<Progress>, cases: usize) -> Result<(), Failure> {
     let asked = stop_on_signals()?;
     let progress = Arc::clone(progress);
     let watching = move || {
@@ -223,6 +284,8 @@ fn watch_signals(progress: &Arc<Progress>) -> Result<(), Failure> {
             std::thread::sleep(Duration::from_millis(50));
         }
         progress.stop.store(true, Ordering::Relaxed);
+        std::thread::sleep(PATIENCE);
+        std::process::exit(i32::from(say_stopped(&progress, cases)));
     };
     std::thread::Builder::new()
         .name("signals".to_owned())
@@ -231,21 +294,45 @@ fn watch_signals(progress: &Arc<Progress>) -> Result<(), Failure> {
         .map_err(|error| Failure::stalled(miette::miette!("signals cannot be watched: {error}")))
 }
 
-/// Runs `work` under a bar with the time left, which draws on a terminal only.
+/// Says once how far a sweep came that somebody stopped; its exit code.
+fn say_stopped(progress: &Progress, cases: usize) -> u8 {
+    static SAID: std::sync::Once = std::sync::Once::new();
+    SAID.call_once(|| {
+        let done = progress.done.load(Ordering::Relaxed);
+        tell(&format!(
+            "stopped with {done} of {cases} cases; they are kept, --resume continues"
+        ));
+    });
+    STOPPED
+}
+
+/// Runs `work` under a bar with the time left on a terminal, elsewhere with lines that say the same, ever more rarely.
 fn with_bar<T: Send>(
     progress: &Progress,
     what: &str,
     work: impl FnOnce() -> Result<T, SweepError> + Send,
 ) -> Result<T, Failure> {
+    const FIRST_LINE: Duration = Duration::from_secs(1);
+    const RAREST: Duration = Duration::from_secs(60);
     let bar = ProgressBar::new(1000);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}") {
         bar.set_style(style);
     }
     let started = Instant::now();
+    let mut next = FIRST_LINE;
     let result = std::thread::scope(|scope| {
         let thread = scope.spawn(work);
         while !thread.is_finished() {
-            show(&bar, progress, what, started.elapsed());
+            let elapsed = started.elapsed();
+            let message = format!("{what}{}", how_far(progress, elapsed));
+            if !bar.is_hidden() {
+                let all = progress.all.load(Ordering::Relaxed).max(1);
+                bar.set_position((1000.0 * progress.cases() / all as f64) as u64);
+                bar.set_message(message);
+            } else if elapsed >= next {
+                tell(&message);
+                next = elapsed + elapsed.min(RAREST);
+            }
             std::thread::sleep(Duration::from_millis(100));
         }
         thread.join()
@@ -259,14 +346,11 @@ fn with_bar<T: Send>(
     }
 }
 
-fn show(bar: &ProgressBar, progress: &Progress, what: &str, elapsed: Duration) {
+/// How far the cases are, and the time left at their pace.
+fn how_far(progress: &Progress, elapsed: Duration) -> String {
     let all = progress.all.load(Ordering::Relaxed);
     let found = progress.found.load(Ordering::Relaxed) as f64;
     let cases = progress.cases();
-    if all == 0 {
-        return;
-    }
-    bar.set_position((1000.0 * cases / all as f64) as u64);
     let now = cases - found;
     let left = if now > 0.05 {
         let s = elapsed.as_secs_f64() * (all as f64 - cases).max(0.0) / now;
@@ -277,5 +361,5 @@ fn show(bar: &ProgressBar, progress: &Progress, what: &str, elapsed: Duration) {
     } else {
         "time left unknown yet".to_owned()
     };
-    bar.set_message(format!("{what}case {} of {all}, {left}", cases.floor()));
+    format!("case {} of {all}, {left}", cases.floor())
 }

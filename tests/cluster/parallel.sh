@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Eight shards of a sweep by GNU parallel, here and through ssh: the merged table is that of one run, byte for byte.
+# A sweep by GNU parallel, here and through ssh: the table is that of one run, byte for byte.
 #   tests/cluster/parallel.sh PROGRAM [SWEEP]      needs: parallel; for the second part sshd and ssh-keygen
 # The ssh server is one of this script's own, on a port of its own, with keys made for it; nothing of the system's
 # configuration is read or changed.
@@ -20,23 +20,26 @@ same() { cmp "$1/table.csv" single/table.csv && echo "same: $2"; }
 "$program" sweep "$sweep" --out single --threads 1 >/dev/null
 echo "single run: $(($(wc -l <single/table.csv) - 1)) cases"
 
-parallel --jobs 2 "$program" sweep "$sweep" --shard {}/8 --out parts/{} --threads 1 ::: 1 2 3 4 5 6 7 8 >/dev/null
+"$here/by_parallel.sh" "$program" "$sweep" chains --jobs 2 >/dev/null
+same chains "a task for each chain, in one folder, collected"
+
+parallel --jobs 3 -N0 "$program" sweep "$sweep" --out shared --resume --threads 1 ::: 1 2 3 4 >/dev/null
+same shared "four processes in one folder, each takes what nobody has; the last one made the table"
+
+parallel --jobs 2 "$program" sweep "$sweep" --chain {} --out parts/{} --threads 1 ::: 0-2 3,4,5 6 7 >/dev/null
 "$program" sweep collect parts/* --out merged >/dev/null
-same merged "8 shards in 8 folders, collected"
+same merged "parts in folders of their own, collected"
 
-parallel --jobs 3 "$program" sweep "$sweep" --shard {}/8 --out shared --threads 1 ::: 8 7 6 5 4 3 2 1 1 5 >/dev/null
-same shared "8 shards in one folder, two of them twice; the last one made the table"
-
-# A shard that died is named, and redone.
-rm -r parts/3
+# A part that was lost is named, and redone.
+rm -r parts/6
 if "$program" sweep collect parts/* --out after >/dev/null 2>message; then
-    echo "a missing shard was not noticed"
+    echo "a missing part was not noticed"
     exit 1
 fi
-grep -q 'missing: chain 2' message
-"$program" sweep "$sweep" --shard 3/8 --out parts/3 --resume --threads 1 >/dev/null
+grep -q 'missing: chain 6' message
+"$program" sweep "$sweep" --chain 6 --out parts/6 --threads 1 >/dev/null
 "$program" sweep collect parts/* --out after >/dev/null
-same after "a lost shard, named and redone"
+same after "a lost part, named and redone"
 
 if [ ! -x /usr/sbin/sshd ]; then
     echo "no sshd: the part through ssh is left out"
@@ -66,7 +69,5 @@ for _ in $(seq 50); do
     sleep 0.1
 done
 login="ssh -p $port -i $folder/user_key -o UserKnownHostsFile=$folder/known_hosts -o BatchMode=yes 127.0.0.1"
-parallel --jobs 2 --sshlogin "$login" --workdir "$folder" \
-    "$program" sweep "$sweep" --shard {}/8 --out remote/{} --threads 1 ::: 1 2 3 4 5 6 7 8 >/dev/null
-"$program" sweep collect remote/* --out over_ssh >/dev/null
-same over_ssh "8 shards through ssh, collected"
+"$here/by_parallel.sh" "$program" "$sweep" "$folder/over_ssh" --jobs 2 --sshlogin "$login" >/dev/null
+same over_ssh "a task for each chain through ssh, collected"

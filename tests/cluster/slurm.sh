@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Eight shards of a sweep as a Slurm job array: the table is that of one run, byte for byte.
+# A sweep as a Slurm job array: the table is that of one run, byte for byte.
 #   tests/cluster/slurm.sh PROGRAM [SWEEP]         needs: slurm-wlm and munge (Debian), root
 # Starts a cluster of one node with its own configuration, keys, sockets and ports in a temporary folder, and stops
-# it again. On a real cluster the job is `job.sh` beside this file:  sbatch --array=1-8 job.sh PROGRAM SWEEP OUT 8
+# it again. On a real cluster `by_slurm.sh` beside this file is all that is needed.
 set -euo pipefail
 here="$(cd "$(dirname "$0")" && pwd)"
 program="$(realpath "$1")"
@@ -71,7 +71,5 @@ sinfo || { tail -n 20 slurmctld.log slurmd.log slurmctld.out slurmd.out munge/ou
 
 "$program" sweep "$sweep" --out single --threads 1 >/dev/null
 echo "single run: $(($(wc -l <single/table.csv) - 1)) cases"
-sbatch --wait --array=1-8 --output="$folder/job-%a.out" "$here/job.sh" "$program" "$sweep" "$folder/parts" 8
-"$program" sweep collect parts --out merged >/dev/null
-cmp merged/table.csv single/table.csv && echo "same: 8 shards through a Slurm job array, collected"
-cmp parts/table.csv single/table.csv && echo "same: the table that the last shard made"
+"$here/by_slurm.sh" "$program" "$sweep" "$folder/chains" >/dev/null
+cmp chains/table.csv single/table.csv && echo "same: a task for each chain, collected"

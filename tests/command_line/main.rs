@@ -5,4 +5,5 @@ mod cli;
 mod common;
 mod outputs;
 mod sweep;
+mod sweep_shared;
 mod truth;

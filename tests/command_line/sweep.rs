@@ -1,20 +1,20 @@
-//! Sweeps: the table does not depend on shards, threads and kills; what it shows has the right trends; hostile
+//! Sweeps: the table does not depend on processes, threads and kills; what it shows has the right trends; hostile
 //! files are refused by name.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use asperity_engine::plan::Plan;
 use asperity_session::sweep::{
-    CaseEnd, CaseStart, ColdComparison, Existing, Folder, Progress, Rows, Shard, Sweep,
-    against_cold, cost, points, points_csv, presets, run,
+    CaseEnd, CaseStart, ColdComparison, Existing, Folder, Progress, Rows, Sweep, Work,
+    against_cold, points, points_csv, presets, run,
 };
 
 /// A coarse scene that still has everything; 8 cases in 4 chains of 2.
-const TINY: &str = "
+pub(crate) const TINY: &str = "
 title = \"tiny\"
 scene = \"demonstration\"
 [set]
@@ -31,50 +31,63 @@ longest = 2
 passages = 0.5
 ";
 
-fn sweep(text: &str) -> Sweep {
+pub(crate) fn sweep(text: &str) -> Sweep {
     Sweep::parse(text, "test", Path::new("")).unwrap()
 }
 
-/// Runs what is missing, and says how many cases that were.
-fn fill(sweep: &Sweep, root: &Path, shard: Shard, threads: usize) -> (Folder, usize) {
+/// These chains of a sweep, or all.
+pub(crate) fn planned(sweep: &Sweep, chains: Option<&str>) -> Work {
+    let chains = chains.map(|chains| chains.parse().unwrap());
+    let going_on = AtomicBool::new(false);
+    let work = Work::plan(sweep, chains.as_ref(), &going_on);
+    work.unwrap().unwrap()
+}
+
+/// Runs what is missing of these chains, or of all, and says how many cases that were.
+pub(crate) fn fill(
+    sweep: &Sweep,
+    root: &Path,
+    chains: Option<&str>,
+    threads: usize,
+) -> (Folder, usize) {
     let folder = Folder::create(root, sweep, Existing::Resume).unwrap();
-    let report = run(sweep, &folder, shard, threads, &Progress::default()).unwrap();
+    let work = planned(sweep, chains);
+    let report = run(sweep, &folder, &work, threads, &Progress::default()).unwrap();
     (folder, report.computed)
 }
 
-fn table(sweep: &Sweep, folders: &[Folder]) -> String {
+pub(crate) fn table(sweep: &Sweep, folders: &[Folder]) -> String {
     Rows::gather(sweep, folders).unwrap().csv(sweep).unwrap()
 }
 
 fn whole(sweep: &Sweep) -> Rows {
     let folder = tempfile::tempdir().unwrap();
-    let (folder, _) = fill(sweep, folder.path(), Shard::WHOLE, 2);
+    let (folder, _) = fill(sweep, folder.path(), None, 2);
     Rows::gather(sweep, &[folder]).unwrap()
 }
 
 #[test]
-fn the_table_is_the_same_for_any_shards_threads_and_order() {
+fn the_table_is_the_same_for_any_chains_threads_and_order() {
     let sweep = sweep(TINY);
     assert_eq!(sweep.chains(), [0..2, 2..4, 4..6, 6..8]);
     let root = tempfile::tempdir().unwrap();
-    let (one, computed) = fill(&sweep, &root.path().join("one"), Shard::WHOLE, 1);
+    let (one, computed) = fill(&sweep, &root.path().join("one"), None, 1);
     assert_eq!(computed, 8);
     let single = table(&sweep, &[one]);
     assert_eq!(single.lines().count(), 9);
-    let (many, _) = fill(&sweep, &root.path().join("many"), Shard::WHOLE, 3);
+    let (many, _) = fill(&sweep, &root.path().join("many"), None, 3);
     assert_eq!(table(&sweep, &[many]), single);
-    // Three shards, the last first, one of them twice; merged in any order.
+    // Three parts, the last first, one of them twice; merged in any order.
     let mut parts = Vec::new();
-    for index in [3, 1, 2, 1] {
-        let place = root.path().join(format!("part-{index}-{}", parts.len()));
-        let shard = Shard { index, count: 3 };
-        parts.push(fill(&sweep, &place, shard, 1).0);
+    for chains in ["2", "0,3", "1", "3-3,0"] {
+        let place = root.path().join(format!("part-{}", parts.len()));
+        parts.push(fill(&sweep, &place, Some(chains), 1).0);
     }
     assert_eq!(table(&sweep, &parts), single);
     parts.reverse();
     assert_eq!(table(&sweep, &parts), single);
-    // A shard that died is named.
-    let error = Rows::gather(&sweep, &parts[1..2]).unwrap_err().to_string();
+    // A part that is missing is named.
+    let error = Rows::gather(&sweep, &parts[3..]).unwrap_err().to_string();
     assert!(error.contains("6 of 8 cases are missing"), "{error}");
     assert!(error.contains("chain 0 (cases 0 to 1)"), "{error}");
 }
@@ -84,7 +97,7 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     let text = TINY.replace("longest = 2", "longest = 4");
     let sweep = sweep(&text);
     let root = tempfile::tempdir().unwrap();
-    let (one, _) = fill(&sweep, &root.path().join("one"), Shard::WHOLE, 2);
+    let (one, _) = fill(&sweep, &root.path().join("one"), None, 2);
     let single = table(&sweep, &[one]);
     // Stopped as soon as two cases are there: in the middle of a chain. On a busy machine the rest may be made before this
     // thread sees them: then once more.
@@ -93,7 +106,7 @@ fn a_chain_goes_on_where_it_was_broken_off() {
         let folder = Folder::create(&place, &sweep, Existing::Refuse).unwrap();
         let progress = Progress::default();
         std::thread::scope(|scope| {
-            scope.spawn(|| run(&sweep, &folder, Shard::WHOLE, 1, &progress).unwrap());
+            scope.spawn(|| run(&sweep, &folder, &planned(&sweep, None), 1, &progress).unwrap());
             while progress.done.load(Ordering::Relaxed) < 2 {
                 std::thread::yield_now();
             }
@@ -111,7 +124,7 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     let half = std::fs::read(&last).unwrap();
     std::fs::write(&last, &half[..half.len() / 2]).unwrap();
     assert!(folder.read_case(kept - 1).is_none());
-    let computed = fill(&sweep, &place, Shard::WHOLE, 1).1;
+    let computed = fill(&sweep, &place, None, 1).1;
     assert!(computed > 8 - kept, "{computed} of {kept}");
     assert_eq!(table(&sweep, std::slice::from_ref(&folder)), single);
     // A state that was changed is no state: the chain begins again at its head, with the same result.
@@ -122,10 +135,10 @@ fn a_chain_goes_on_where_it_was_broken_off() {
         "asperity state 4 0\n{}",
     )
     .unwrap();
-    assert_eq!(fill(&sweep, &place, Shard::WHOLE, 1).1, 4);
+    assert_eq!(fill(&sweep, &place, None, 1).1, 4);
     assert_eq!(table(&sweep, std::slice::from_ref(&folder)), single);
     // Nothing is missing: nothing is computed.
-    assert_eq!(fill(&sweep, &place, Shard::WHOLE, 1).1, 0);
+    assert_eq!(fill(&sweep, &place, None, 1).1, 0);
     // Without being told to, nobody goes on in a folder with cases, nor in that of another sweep.
     let refused = Folder::create(&place, &sweep, Existing::Refuse).unwrap_err();
     assert!(
@@ -392,7 +405,7 @@ fn hostile_files_are_refused_by_key_value_and_range() {
     let sweep = sweep("[vary]\nmotion.slide_roll = [0.0, 3.0]");
     let root = tempfile::tempdir().unwrap();
     let folder = Folder::create(root.path(), &sweep, Existing::Refuse).unwrap();
-    let error = run(&sweep, &folder, Shard::WHOLE, 1, &Progress::default()).unwrap_err();
+    let error = Work::plan(&sweep, None, &AtomicBool::new(false)).unwrap_err();
     let error = error.to_string();
     assert!(error.contains("case 1 (motion.slide_roll = 3)"), "{error}");
     assert!(error.contains("-2 to 2"), "{error}");
@@ -598,14 +611,14 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-fn asperity(folder: &Path, args: &[&str]) -> std::process::Output {
+pub(crate) fn asperity(folder: &Path, args: &[&str]) -> std::process::Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
     command.args(args).current_dir(folder).stdin(Stdio::null());
     command.output().unwrap()
 }
 
 /// The command fails with that code and says the words on stderr.
-fn refused(output: &std::process::Output, code: i32, words: &[&str]) {
+pub(crate) fn refused(output: &std::process::Output, code: i32, words: &[&str]) {
     let told = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{told}");
     for word in words {
@@ -614,7 +627,7 @@ fn refused(output: &std::process::Output, code: i32, words: &[&str]) {
 }
 
 /// Two cases, each of one step or so.
-const FEW: &str = "
+pub(crate) const FEW: &str = "
 scene = \"demonstration\"
 [set]
 grid.nodes = 33
@@ -649,7 +662,7 @@ fn a_folder_that_no_sweep_has_marked_is_somebody_else_s() {
         std::fs::write(theirs.join(name), "mine").unwrap();
     }
     let (before, here) = (names(&theirs), names(place));
-    for how in [&[][..], &["--force"], &["--resume"], &["--shard=1/2"]] {
+    for how in [&[][..], &["--force"], &["--resume"], &["--chain=0"]] {
         for (sweep, out) in [
             ("few.toml", "theirs"),
             ("sweep.toml", "."),
@@ -724,7 +737,7 @@ fn nobody_begins_in_a_folder_that_is_in_use() {
     let held = Folder::create(&place, &sweep, Existing::Refuse).unwrap();
     let refused = Folder::create(&place, &sweep, Existing::Replace).unwrap_err();
     assert!(refused.to_string().contains("working in it"), "{refused}");
-    // Shards join.
+    // Who goes on joins.
     let joined = Folder::create(&place, &sweep, Existing::Resume).unwrap();
     drop(held);
     assert!(Folder::create(&place, &sweep, Existing::Replace).is_err());
@@ -750,23 +763,20 @@ fn what_others_are_writing_stays_however_old_it_seems() {
     assert!(!writing.exists());
 }
 
-/// Of what this shard will run, before it runs.
+/// Of what it will run, before it runs.
 #[test]
 fn a_sweep_tells_what_it_will_cost() {
     let root = tempfile::tempdir().unwrap();
     let few = FEW.replace("longest = 2", "longest = 1");
     let sweep = sweep(&few);
     std::fs::write(root.path().join("few.toml"), &few).unwrap();
-    for (shard, share) in [("1/1", Shard::WHOLE), ("2/2", Shard { index: 2, count: 2 })] {
-        let shards = format!("--shard={shard}");
-        let out = format!("--out=of-{}", share.count);
-        let ended = asperity(root.path(), &["sweep", "few.toml", &shards, &out]);
-        let own = sweep.chains().into_iter().enumerate();
-        let own = own.filter(|(chain, _)| share.has(*chain));
-        let cases: Vec<usize> = own.flat_map(|(_, cases)| cases).collect();
-        assert!(!cases.is_empty());
-        let (counted, whole) = cost(&sweep, share).unwrap();
-        assert_eq!(counted, cases.len());
+    for (chains, cases) in [("0-1", vec![0, 1]), ("1", vec![1])] {
+        let chosen = format!("--chain={chains}");
+        let out = format!("--out=of-{chains}");
+        let ended = asperity(root.path(), &["sweep", "few.toml", &chosen, &out]);
+        let work = planned(&sweep, Some(chains));
+        let whole = work.cost;
+        assert_eq!((work.cases, work.chains()), (cases.len(), cases.len()));
         // A case is as long as the scene's own run or shorter, and started cold.
         let longest = |case| Plan::new(&sweep.scene(case).unwrap()).unwrap().cost.time_s;
         let most: f64 = cases.iter().map(|case| longest(*case)).sum();
@@ -775,7 +785,8 @@ fn a_sweep_tells_what_it_will_cost() {
             "{whole:?} {most}"
         );
         let words = format!(
-            "{counted} cases, an estimated {} on one core from cold starts",
+            "{0} cases in {0} chains, an estimated {1} on one core from cold starts",
+            cases.len(),
             whole.time_text()
         );
         let said = String::from_utf8_lossy(&ended.stderr).into_owned();
@@ -791,7 +802,14 @@ fn a_state_that_cannot_be_written_leaves_no_temporary() {
     // Something that cannot be replaced has the state's name.
     let taken = root.path().join("chains/0000000-0000000.state/full");
     std::fs::create_dir_all(taken).unwrap();
-    let failed = run(&sweep, &folder, Shard::WHOLE, 1, &Progress::default()).unwrap_err();
+    let failed = run(
+        &sweep,
+        &folder,
+        &planned(&sweep, None),
+        1,
+        &Progress::default(),
+    )
+    .unwrap_err();
     assert!(
         failed.to_string().contains("0000000-0000000.state"),
         "{failed}"

@@ -10,10 +10,10 @@ or, with combine = \"list\", vary together. Instead of [vary], [gear] follows a 
 [race] a ball through its loaded zone, [cam] a cam's flank. asperity sweep slide_roll --show file prints one.
 
 Cases that differ only in S or an amplitude start from each other's final state, in chains of at most [chain] longest
-cases; a chain begins cold. The file alone determines the chains, and shards are made of whole chains, so the table is
-the same byte for byte whatever --shard, --threads and interruptions, on machines of one kind: CPUs with other vector
-units differ by rounding (about 1e-7). Every case is written whole or not at all: after an interruption --resume
-continues.
+cases; a chain begins cold. The file alone determines the chains, so the table is the same byte for byte whoever runs
+which, on machines of one kind: CPUs with other vector units differ by rounding (about 1e-7). Every case is written whole
+or not at all: after an interruption --resume continues. Started several times with --resume on one folder, here or on
+machines that share it, each process takes the next chain that nobody has.
 
 The folder must be new, empty or marked by a sweep (sweep.digest); --force removes the sweep's own files in it and no
 others.";
@@ -25,9 +25,11 @@ Built in: slide_roll, life_map, stribeck, lambda, fzg_c, bearing_race, cam_flank
 Examples:
   asperity sweep slide_roll                      the default scene at 21 values of S, into ./slide_roll.sweep/
   asperity sweep slide_roll --show file > mine.toml    a file to edit
-  asperity sweep mine.toml --resume              continues after an interruption
-  asperity sweep mine.toml --shard 3/8           the third of eight parts, on this machine or another
-  asperity sweep collect mine.sweep              the table of parts that share a folder
+  asperity sweep mine.toml --resume              continues after an interruption; helps a sweep that runs
+  asperity sweep status mine.sweep               how far it is, and who works on it
+  asperity sweep mine.toml --show manifest       the chains and their estimated costs
+  asperity sweep mine.toml --chain 3             chain 3 alone, for an engine that shares chains out
+  asperity sweep collect mine.sweep              the table, when all chains are there
   asperity sweep collect one.sweep two.sweep --out all.sweep
   asperity sweep slide_roll --compare-cold       what the chains save, and what they cost in accuracy
   asperity sweep fzg_c --show ride > ride.toml   then asperity run ride.toml: a recording along the tooth

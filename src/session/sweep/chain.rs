@@ -1,51 +1,57 @@
-//! Chains: the unit of work, of sharding and of resuming.
+//! Chains: the unit of work and of resuming.
 //!
 //! ```text
 //! line    cases along the last axis, where that allows warm starts; in a list, neighbours that differ only
 //!         in keys that do
 //! chain   a line cut into ⌈m/longest⌉ pieces as even as can be, the longer ones first
-//! shard i of n   the chains c with c ≡ i − 1 (mod n)
 //! ```
 //! A chain is fixed by the sweep file alone: its first case starts cold, the others from the end of the one
-//! before, so the table does not depend on shards, threads, or where a run was broken off.
+//! before, so the table does not depend on who runs which, on threads, or where a run was broken off.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use super::axis::VariedKey;
+use super::error::SweepError;
 use super::spec::{Combine, Sweep};
 
-/// A part of a sweep: i of n, from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shard {
-    /// Which, 1 to n.
-    pub index: usize,
-    /// Of how many.
-    pub count: usize,
+/// Some chains of a sweep by their numbers, from 0.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ChainList {
+    ranges: Vec<RangeInclusive<usize>>,
 }
 
-impl Shard {
-    /// All of it.
-    pub const WHOLE: Self = Self { index: 1, count: 1 };
+impl ChainList {
+    /// Whether a chain is in it.
+    pub(super) fn has(&self, chain: usize) -> bool {
+        self.ranges.iter().any(|range| range.contains(&chain))
+    }
 
-    /// Whether a chain belongs to it.
-    pub fn has(self, chain: usize) -> bool {
-        chain % self.count == self.index - 1
+    /// Refuses numbers that a sweep with so many chains does not have.
+    pub(super) fn check(&self, chains: usize) -> Result<(), SweepError> {
+        match self.ranges.iter().find(|range| *range.end() >= chains) {
+            None => Ok(()),
+            Some(range) => Err(SweepError::Chain {
+                asked: *range.end(),
+                last: chains - 1,
+            }),
+        }
     }
 }
 
-impl std::str::FromStr for Shard {
+impl std::str::FromStr for ChainList {
     type Err = String;
 
-    /// Reads `i/n`.
+    /// Reads `3`, `3-5` or `3,7-9`.
     fn from_str(text: &str) -> Result<Self, String> {
-        let refused =
-            || format!("{text:.20} is refused; allowed: i/n with 1 <= i <= n, such as 3/8");
-        let (index, count) = text.split_once('/').ok_or_else(refused)?;
-        let parse = |part: &str| part.trim().parse::<usize>().ok();
-        match (parse(index), parse(count)) {
-            (Some(index), Some(count)) if (1..=count).contains(&index) => Ok(Self { index, count }),
-            _ => Err(refused()),
-        }
+        let range = |part: &str| {
+            let (first, last) = part.split_once('-').unwrap_or((part, part));
+            let range = first.trim().parse().ok()?..=last.trim().parse().ok()?;
+            (!range.is_empty()).then_some(range)
+        };
+        let ranges = text.split(',').map(range).collect::<Option<_>>();
+        ranges.map(|ranges| Self { ranges }).ok_or_else(|| {
+            format!("{text:.40} is refused; allowed: numbers of chains from 0 and ranges of them, such as 3 or 0,4-7")
+        })
     }
 }
 
@@ -121,16 +127,15 @@ mod tests {
     }
 
     #[test]
-    fn shards_take_every_chain_once() {
-        for n in 1..9 {
-            for chain in 0..20 {
-                let shards = (1..=n).filter(|&index| Shard { index, count: n }.has(chain));
-                assert_eq!(shards.count(), 1);
-            }
-        }
-        assert_eq!("3/8".parse(), Ok(Shard { index: 3, count: 8 }));
-        for text in ["0/8", "9/8", "1/0", "a/b", "1", "-1/2", "1/8/2"] {
-            assert!(text.parse::<Shard>().is_err(), "{text}");
+    fn chains_are_asked_for_by_number() {
+        let list: ChainList = "3,7-9".parse().expect("read");
+        let has: Vec<_> = (0..12).filter(|chain| list.has(*chain)).collect();
+        assert_eq!(has, [3, 7, 8, 9]);
+        assert!(list.check(10).is_ok());
+        let refused = list.check(9).expect_err("no chain 9").to_string();
+        assert_eq!(refused, "--chain 9: the sweep has chains 0 to 8");
+        for text in ["", "a", "-1", "4-3", "1,", "1-2-3", "1/8"] {
+            assert!(text.parse::<ChainList>().is_err(), "{text}");
         }
     }
 }

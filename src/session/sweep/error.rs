@@ -44,6 +44,14 @@ pub enum SweepError {
         /// What is wrong.
         source: PlanError,
     },
+    /// A chain that the sweep does not have.
+    #[error("--chain {asked}: the sweep has chains 0 to {last}")]
+    Chain {
+        /// Its number.
+        asked: usize,
+        /// The last one's.
+        last: usize,
+    },
     /// A folder or a file in it.
     #[error("{path}: {reason}")]
     Folder {

@@ -8,6 +8,7 @@
 //! FOLDER/base.toml               the scene that every case starts from, before its own keys are set
 //! FOLDER/cases/0000012.json      asperity case 1 <FNV-1a of the rest> \n { ... }
 //! FOLDER/chains/0000003-0000012.state      where chain 3 goes on after case 12; gone when it is done
+//! FOLDER/chains/0000003.claim    locked by the process that works on chain 3; gone when it is done
 //! FOLDER/table.csv, seconds.csv, *.svg, *.png   when all cases are there
 //! ```
 //! A folder that is not empty and has no mark is somebody else's: nothing in it is touched. In a marked one nothing
@@ -15,6 +16,7 @@
 //! that a kill leaves the old one or the new one. Two processes that write the same case write the same bytes. A
 //! record whose digest does not fit counts as missing.
 
+mod claim;
 mod mark;
 
 use std::path::{Path, PathBuf};
@@ -27,6 +29,7 @@ use crate::run::{Checkpoint, Climb};
 use asperity_engine::files::{fnv, publish, sync_file};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{State, Stats};
+pub use claim::Claimed;
 pub use mark::Existing;
 use mark::{Entry, FolderMark, Lock, MARK, TEMPORARY};
 
@@ -100,7 +103,7 @@ impl Folder {
         Ok(())
     }
 
-    /// A folder that some shard has filled.
+    /// A folder that somebody has filled.
     ///
     /// # Errors
     /// [`SweepError::Folder`] when it is none of this sweep.
@@ -168,6 +171,21 @@ impl Folder {
         (record.index == index).then_some(record)
     }
 
+    /// Which of so many cases have a record, by its name.
+    pub(super) fn cases_by_name(&self, cases: usize) -> Vec<bool> {
+        let mut there = vec![false; cases];
+        let entries = std::fs::read_dir(self.root.join("cases"));
+        for entry in entries.into_iter().flatten().flatten() {
+            let name = entry.file_name();
+            let number = name.to_str().and_then(|name| name.strip_suffix(".json"));
+            let number = number.and_then(|number| number.parse::<usize>().ok());
+            if let Some(there) = number.and_then(|number| there.get_mut(number)) {
+                *there = true;
+            }
+        }
+        there
+    }
+
     fn state_path(&self, chain: usize, case: usize) -> PathBuf {
         let name = format!("{chain:07}-{case:07}.state");
         self.root.join("chains").join(name)
@@ -215,10 +233,9 @@ impl Folder {
     fn temporary(&self) -> PathBuf {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let n = COUNT.fetch_add(1, Ordering::Relaxed);
-        // Shards may share a folder: the name holds the process, and the machine's in case the folder is
+        // Several may share a folder: the name holds the process, and the machine's in case the folder is
         // on a network.
-        let host = std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
-        let name = format!("{TEMPORARY}{}-{}-{n}", host.trim(), std::process::id());
+        let name = format!("{TEMPORARY}{}-{}-{n}", claim::host(), std::process::id());
         self.root.join(name)
     }
 

@@ -1,25 +1,24 @@
-//! Runs the chains of a shard, several at a time, each on one thread.
+//! Runs chains, several at a time, each on one thread.
 //!
-//! Chains are handed out in order to whoever is free. One thread a chain wastes none; only when there are fewer
-//! chains than threads does a solver get more than one. Results depend on neither.
+//! Whoever is free takes the next chain that is not done and that nobody else has: a thread here, or another process in the
+//! same folder. One thread a chain wastes none; only when there are fewer chains than threads does a solver get more than
+//! one. Results depend on neither.
 
-use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 use super::case::{CaseEnd, Neighbour, may_follow};
-use super::chain::Shard;
 use super::error::SweepError;
 use super::folder::Folder;
 use super::spec::Sweep;
+use super::work::{Chain, LOOKED_AT, Work};
 use crate::run::share_out;
-use asperity_engine::plan::Cost;
 
 /// Where a sweep is, for a progress bar, and how to stop it.
 #[derive(Debug, Default)]
 pub struct Progress {
-    /// Cases of this shard.
+    /// Cases to run.
     pub all: AtomicUsize,
-    /// Cases that were there before.
+    /// Cases that were there before, or came from others.
     pub found: AtomicUsize,
     /// Cases that are done, those found included.
     pub done: AtomicUsize,
@@ -36,6 +35,12 @@ impl Progress {
         done + 1e-3 * self.under_way.load(Ordering::Relaxed) as f64
     }
 
+    /// Notes that cases were there.
+    fn note_found(&self, cases: usize) {
+        self.found.fetch_add(cases, Ordering::Relaxed);
+        self.done.fetch_add(cases, Ordering::Relaxed);
+    }
+
     /// Notes how much of a case under way is done, thousandths, in place of `before`; false: stop.
     fn note(&self, now: u64, before: &mut u64) -> bool {
         self.under_way.fetch_add(now, Ordering::Relaxed);
@@ -45,98 +50,84 @@ impl Progress {
     }
 }
 
-/// How a shard ended.
+/// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Report {
     /// Cases computed now.
     pub computed: usize,
+    /// Chains that are left to others, who have them.
+    pub held: usize,
     /// Whether somebody stopped it.
     pub stopped: bool,
 }
 
-/// Computes what is missing of a shard.
+/// Computes what is missing of some work, and leaves to others what they have claimed.
 ///
 /// # Errors
-/// [`SweepError`] when a case is no scene or cannot be planned (all of the shard are checked before the first
-/// runs), or when the disk says no.
+/// [`SweepError`] when a case is no scene or cannot be planned, or when the disk says no.
 pub fn run(
     sweep: &Sweep,
     folder: &Folder,
-    shard: Shard,
+    work: &Work,
     threads: usize,
     progress: &Progress,
 ) -> Result<Report, SweepError> {
-    let mut own = own_chains(sweep, shard);
-    for case in own.iter().flat_map(|chain| chain.cases.clone()) {
-        sweep.case(case)?;
+    progress.all.store(work.cases, Ordering::Relaxed);
+    let mut chains = work.chains.clone();
+    if chains.len() <= LOOKED_AT {
+        chains.retain(|chain| !is_done(folder, progress, chain));
     }
-    let is_there = |case: &usize| folder.read_case(*case).is_some();
-    let all = own.iter().map(|chain| chain.cases.len()).sum();
-    let mut found = 0;
-    own.retain(|chain| {
-        let there = chain.cases.clone().filter(is_there).count();
-        found += there;
-        there < chain.cases.len()
-    });
-    progress.all.store(all, Ordering::Relaxed);
-    progress.found.store(found, Ordering::Relaxed);
-    progress.done.store(found, Ordering::Relaxed);
-    let workers = threads.min(own.len()).max(1);
+    let workers = threads.min(chains.len()).max(1);
     let crew = Crew {
         sweep,
         folder,
         progress,
         threads: (threads / workers).max(1),
     };
-    let work = |chain: &Chain| {
-        let ran = crew.run(chain);
+    let take = |chain: &Chain| {
+        let taken = crew.take(chain);
         // What fails for one fails for all: a full disk.
-        progress.stop.fetch_or(ran.is_err(), Ordering::Relaxed);
-        ran
+        progress.stop.fetch_or(taken.is_err(), Ordering::Relaxed);
+        taken
     };
-    let ran = share_out(&own, workers, work, &mut |_, _| {});
-    Ok(Report {
-        computed: ran.into_iter().sum::<Result<_, _>>()?,
-        stopped: progress.stop.load(Ordering::Relaxed),
-    })
-}
-
-/// A chain with its cases.
-struct Chain {
-    index: usize,
-    cases: Range<usize>,
-}
-
-/// The chains of a shard.
-fn own_chains(sweep: &Sweep, shard: Shard) -> Vec<Chain> {
-    let chains = sweep.chains().into_iter().enumerate();
-    chains
-        .filter(|(index, _)| shard.has(*index))
-        .map(|(index, cases)| Chain { index, cases })
-        .collect()
-}
-
-/// How many cases a shard has, and what they cost together, each from a cold start: an estimate, told before the first one
-/// runs.
-///
-/// # Errors
-/// [`SweepError`] as of [`run`].
-pub fn cost(sweep: &Sweep, shard: Shard) -> Result<(usize, Cost), SweepError> {
-    let mut cases = 0;
-    let mut all = Cost {
-        memory_bytes: 0,
-        time_s: 0.0,
-    };
-    for index in own_chains(sweep, shard)
-        .into_iter()
-        .flat_map(|chain| chain.cases)
-    {
-        let cost = sweep.case(index)?.plan.cost;
-        cases += 1;
-        all.memory_bytes = all.memory_bytes.max(cost.memory_bytes);
-        all.time_s += cost.time_s;
+    let mut report = Report::default();
+    // What others had may have been left by them since.
+    loop {
+        let mut held = Vec::new();
+        let taken = share_out(&chains, workers, take, &mut |_, _| {});
+        for (chain, taken) in chains.iter().zip(taken) {
+            match taken? {
+                Taken::Done(computed) => report.computed += computed,
+                Taken::Held => held.push(chain.clone()),
+            }
+        }
+        report.held = held.len();
+        report.stopped = progress.stop.load(Ordering::Relaxed);
+        if held.len() == chains.len() || report.stopped {
+            return Ok(report);
+        }
+        chains = held;
     }
-    Ok((cases, all))
+}
+
+/// Whether all cases of a chain are there.
+fn is_done(folder: &Folder, progress: &Progress, chain: &Chain) -> bool {
+    let is_done = chain
+        .cases
+        .clone()
+        .all(|case| folder.read_case(case).is_some());
+    if is_done {
+        progress.note_found(chain.cases.len());
+    }
+    is_done
+}
+
+/// What became of a chain.
+enum Taken {
+    /// It is done, so many cases of it now; or somebody said stop.
+    Done(usize),
+    /// Somebody else has it.
+    Held,
 }
 
 /// What the workers share.
@@ -149,14 +140,35 @@ struct Crew<'a> {
 }
 
 impl Crew<'_> {
+    /// Runs what is missing of a chain if nobody else does.
+    fn take(&self, chain: &Chain) -> Result<Taken, SweepError> {
+        let is_stopped = || self.progress.stop.load(Ordering::Relaxed);
+        if is_stopped() || is_done(self.folder, self.progress, chain) {
+            return Ok(Taken::Done(0));
+        }
+        let Some(claim) = self.folder.claim(chain.index)? else {
+            return Ok(Taken::Held);
+        };
+        // It may have been done just before.
+        let computed = if is_done(self.folder, self.progress, chain) {
+            0
+        } else {
+            self.run(chain)?
+        };
+        if !is_stopped() {
+            claim.done();
+        }
+        Ok(Taken::Done(computed))
+    }
+
     /// Runs what is missing of a chain; how many cases that were.
     fn run(&self, chain: &Chain) -> Result<usize, SweepError> {
-        if self.progress.stop.load(Ordering::Relaxed) {
-            return Ok(0);
-        }
         let mut computed = 0;
-        let (from, mut neighbour) = self.take_up(chain)?;
         let cases = &chain.cases;
+        let is_there = |case: &usize| self.folder.read_case(*case).is_some();
+        self.progress
+            .note_found(cases.clone().filter(is_there).count());
+        let (from, mut neighbour) = self.take_up(chain)?;
         for index in from..cases.end {
             let case = self.sweep.case(index)?;
             let was_there = self.folder.read_case(index).is_some();

@@ -103,7 +103,7 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// Gathers the cases of a sweep from the folders of its shards; a case that is in several is in all of them
+    /// Gathers the cases of a sweep from its folders; a case that is in several is in all of them
     /// the same.
     ///
     /// # Errors

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::error::SweepError;
+use super::claim::CLAIM;
 use crate::program::BUILD;
 use asperity_engine::files::{identity, open_plain, read_up_to};
 
@@ -84,7 +85,7 @@ pub(super) fn seen(root: &Path) -> Result<Option<FolderMark>, SweepError> {
     let Some(name) = stranger(root).filter(|_| found.is_none()) else {
         return Ok(found);
     };
-    // Another shard may have begun here since: its mark comes before all else.
+    // Another process may have begun here since: its mark comes before all else.
     let since = FolderMark::read(root);
     if since.is_none() {
         let reason = format!(
@@ -157,8 +158,10 @@ fn is_result(name: &str) -> bool {
 pub(super) fn clear(root: &Path) -> Result<(), SweepError> {
     let cases = |name: &str| is_numbered(name, ".json");
     let states = |name: &str| is_numbered(name, ".state");
+    let claims = |name: &str| is_numbered(name, CLAIM);
     take_away(&root.join("cases"), cases)?;
     take_away(&root.join("chains"), states)?;
+    take_away(&root.join("chains"), claims)?;
     take_away(root, is_result)
 }
 
@@ -167,6 +170,9 @@ pub(super) fn clear(root: &Path) -> Result<(), SweepError> {
 pub(super) fn tidy(root: &Path) {
     // One that stays behind does no harm.
     drop(take_away(root, |name| name.starts_with(TEMPORARY)));
+    drop(take_away(&root.join("chains"), |name| {
+        is_numbered(name, CLAIM)
+    }));
 }
 
 /// Takes away the files of a folder whose names are such.
@@ -213,7 +219,7 @@ impl Entry {
         let is_entering = matches!(locked, Err(TryLockError::WouldBlock));
         let is_there = is_entering || is_held(&root.join(MARK));
         if is_there && existing != Existing::Resume {
-            let reason = "another sweep is working in it; --resume and --shard join it";
+            let reason = "another sweep is working in it; --resume joins it";
             return Err(SweepError::folder(root, reason));
         }
         Ok(Self {
