@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use asperity_engine::scene::{Knob, presets};
 use asperity_picture::export::Format;
-use asperity_session::sweep::ChainList;
+use asperity_session::sweep::{ChainList, Shard};
 use clap::{Args, Parser, Subcommand};
 
 pub(crate) use self::recordings::{BesideValues, CompareArgs, CompareBy, ExportArgs};
@@ -154,6 +154,9 @@ pub(crate) struct SweepArgs {
     /// Built-in sweep, or TOML file
     #[arg(required = true)]
     pub(crate) sweep: Option<String>,
+    /// Part of the sweep to run: every n-th chain from the i-th on, i from 1 (one folder each, or one for all)
+    #[arg(long, value_name = "I/N", conflicts_with = "chain")]
+    pub(crate) shard: Option<Shard>,
     /// Run these chains only, such as 3 or 0,4-7, for an engine that shares them out; makes no table
     #[arg(long, value_name = "ID")]
     pub(crate) chain: Option<ChainList>,
@@ -170,7 +173,7 @@ pub(crate) struct SweepArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
     /// Also run every case cold, as asperity run would, and print what the chains save
-    #[arg(long, conflicts_with = "chain")]
+    #[arg(long, conflicts_with_all = ["chain", "shard"])]
     pub(crate) compare_cold: bool,
     /// Print one of these about the sweep instead of running it
     #[arg(long, value_enum, value_name = "WHAT")]

@@ -7,8 +7,8 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use asperity_session::sweep::{
-    CaseEnd, ColdComparison, Existing, Folder, Progress, Report, Rows, Status, Sweep, SweepError,
-    Work, against_cold, manifest, points, points_csv, run,
+    CaseEnd, ChainList, ColdComparison, Existing, Folder, Progress, Report, Rows, Status, Sweep,
+    SweepError, Work, against_cold, manifest, points, points_csv, run,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -41,14 +41,15 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
         (true, _) => Existing::Resume,
         (_, true) => Existing::Replace,
         // Those who were given chains of one sweep fill one folder side by side.
-        _ if args.chain.is_some() => Existing::Resume,
+        _ if args.chain.is_some() || args.shard.is_some() => Existing::Resume,
         _ => Existing::Refuse,
     };
     let progress = Arc::new(Progress::default());
     watch_signals(&progress, sweep.len())?;
     let folder = Folder::create(&root, &sweep, existing)?;
     let threads = threads(args.threads);
-    let Some(work) = Work::plan(&sweep, args.chain.as_ref(), &progress.stop)? else {
+    let only = (args.chain.clone()).or_else(|| args.shard.map(ChainList::from));
+    let Some(work) = Work::plan(&sweep, only.as_ref(), &progress.stop)? else {
         return Ok(say_stopped(&progress, sweep.len()));
     };
     tell(&format!("{}, {}", counted(&work), estimated(&work)));
@@ -64,7 +65,15 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
         print(&left_to_others(&report, &folder))?;
         return Ok(0);
     }
-    let rows = Rows::gather(&sweep, std::slice::from_ref(&folder))?;
+    let rows = match Rows::gather(&sweep, std::slice::from_ref(&folder)) {
+        Ok(rows) => rows,
+        Err(error @ SweepError::Incomplete { .. }) if args.shard.is_some() => {
+            let done = report.computed;
+            print(&format!("{done} cases computed; {error}\n"))?;
+            return Ok(0);
+        }
+        Err(error) => return Err(error.into()),
+    };
     let code = finish(&sweep, &rows, &folder)?;
     if !args.compare_cold {
         return Ok(code);

@@ -104,6 +104,34 @@ fn a_chain_that_somebody_has_is_left_to_him_and_one_that_the_dead_had_is_not() {
 }
 
 #[test]
+fn shards_in_folders_of_their_own_make_the_table_of_one_process() {
+    let root = tempfile::tempdir().unwrap();
+    let place = root.path();
+    std::fs::write(place.join("tiny.toml"), TINY).unwrap();
+    let said = |args: &[&str]| {
+        let output = asperity(place, args);
+        assert!(output.status.success(), "{output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    said(&["sweep", "tiny.toml", "--out=single"]);
+    for (shard, out) in [("--shard=2/2", "--out=two"), ("--shard=1/2", "--out=one")] {
+        let told = said(&["sweep", "tiny.toml", shard, out]);
+        assert!(
+            told.contains("4 cases computed; 4 of 8 cases are missing"),
+            "{told}"
+        );
+    }
+    said(&["sweep", "collect", "one", "two", "--out", "both"]);
+    let read = |out: &str| std::fs::read(place.join(out).join("table.csv")).unwrap();
+    assert_eq!(read("both"), read("single"));
+    refused(
+        &asperity(place, &["sweep", "tiny.toml", "--shard=3/2"]),
+        1,
+        &["3/2 is refused", "1 <= i <= n"],
+    );
+}
+
+#[test]
 fn an_engine_runs_the_manifest_chain_by_chain() {
     let root = tempfile::tempdir().unwrap();
     let place = root.path();

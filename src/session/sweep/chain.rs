@@ -4,6 +4,7 @@
 //! line    cases along the last axis, where that allows warm starts; in a list, neighbours that differ only
 //!         in keys that do
 //! chain   a line cut into ⌈m/longest⌉ pieces as even as can be, the longer ones first
+//! shard i of n   the chains c with c ≡ i − 1 (mod n)
 //! ```
 //! A chain is fixed by the sweep file alone: its first case starts cold, the others from the end of the one
 //! before, so the table does not depend on who runs which, on threads, or where a run was broken off.
@@ -18,12 +19,15 @@ use super::spec::{Combine, Sweep};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ChainList {
     ranges: Vec<RangeInclusive<usize>>,
+    /// Of all chains those of a shard, in place of ranges.
+    shard: Option<Shard>,
 }
 
 impl ChainList {
     /// Whether a chain is in it.
     pub(super) fn has(&self, chain: usize) -> bool {
-        self.ranges.iter().any(|range| range.contains(&chain))
+        let is_named = self.ranges.iter().any(|range| range.contains(&chain));
+        is_named || self.shard.is_some_and(|shard| shard.has(chain))
     }
 
     /// Refuses numbers that a sweep with so many chains does not have.
@@ -49,9 +53,54 @@ impl std::str::FromStr for ChainList {
             (!range.is_empty()).then_some(range)
         };
         let ranges = text.split(',').map(range).collect::<Option<_>>();
-        ranges.map(|ranges| Self { ranges }).ok_or_else(|| {
+        let list = |ranges| Self {
+            ranges,
+            shard: None,
+        };
+        ranges.map(list).ok_or_else(|| {
             format!("{text:.40} is refused; allowed: numbers of chains from 0 and ranges of them, such as 3 or 0,4-7")
         })
+    }
+}
+
+/// A part of a sweep: i of n, from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Which, 1 to n.
+    pub index: usize,
+    /// Of how many.
+    pub count: usize,
+}
+
+impl Shard {
+    /// Whether a chain belongs to it.
+    fn has(self, chain: usize) -> bool {
+        chain % self.count == self.index - 1
+    }
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    /// Reads `i/n`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let refused =
+            || format!("{text:.20} is refused; allowed: i/n with 1 <= i <= n, such as 3/8");
+        let (index, count) = text.split_once('/').ok_or_else(refused)?;
+        let parse = |part: &str| part.trim().parse::<usize>().ok();
+        match (parse(index), parse(count)) {
+            (Some(index), Some(count)) if (1..=count).contains(&index) => Ok(Self { index, count }),
+            _ => Err(refused()),
+        }
+    }
+}
+
+impl From<Shard> for ChainList {
+    fn from(shard: Shard) -> Self {
+        Self {
+            ranges: Vec::new(),
+            shard: Some(shard),
+        }
     }
 }
 
@@ -107,6 +156,18 @@ mod tests {
             Path::new(""),
         )
         .expect("read")
+    }
+
+    #[test]
+    fn a_shard_is_every_nth_chain() {
+        let shard: Shard = "2/3".parse().expect("read");
+        let list = ChainList::from(shard);
+        let has: Vec<_> = (0..9).filter(|chain| list.has(*chain)).collect();
+        assert_eq!(has, [1, 4, 7]);
+        assert!(list.check(1).is_ok(), "more shards than chains");
+        for text in ["", "1", "0/2", "3/2", "a/2", "1/0"] {
+            assert!(text.parse::<Shard>().is_err(), "{text}");
+        }
     }
 
     #[test]

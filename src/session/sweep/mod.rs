@@ -35,7 +35,7 @@ mod work;
 pub use axis::{MOST_CASES, VariedKey, WARM};
 pub use background::{Along, Background, CurveOrder, CurvePoint, Found, Ground, SweepWorker};
 pub use case::{CaseEnd, CaseRecord, CaseStart};
-pub use chain::ChainList;
+pub use chain::{ChainList, Shard};
 pub use cold::{ColdComparison, against_cold};
 pub use error::SweepError;
 pub use folder::{Claimed, Existing, Folder};
