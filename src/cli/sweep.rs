@@ -154,10 +154,10 @@ fn status(root: &Path) -> Result<u8, Failure> {
         let _ = writeln!(text, "not done  {}, {}", counted(left), estimated(left));
     }
     let table = root.join("table.csv");
-    let _ = match table.exists() {
-        true => writeln!(text, "table     {}", table.display()),
-        false => writeln!(text, "table     none yet"),
-    };
+    let is_there = table.exists();
+    let table = table.display().to_string();
+    let shown = if is_there { &table } else { "none yet" };
+    let _ = writeln!(text, "table     {shown}");
     print(&text)?;
     Ok(0)
 }
@@ -322,7 +322,7 @@ fn with_bar<T: Send>(
     work: impl FnOnce() -> Result<T, SweepError> + Send,
 ) -> Result<T, Failure> {
     const FIRST_LINE: Duration = Duration::from_secs(1);
-    const RAREST: Duration = Duration::from_secs(60);
+    const RAREST: Duration = Duration::from_mins(1);
     let bar = ProgressBar::new(1000);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}") {
         bar.set_style(style);

@@ -81,12 +81,13 @@ impl Folder {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(failed(error)),
         };
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Ok(None),
-            Err(TryLockError::Error(_))
-                if is_new || !text(&path).is_some_and(|by| may_live(&by)) => {}
-            Err(TryLockError::Error(_)) => return Ok(None),
+        let is_free = match file.try_lock() {
+            Ok(()) => true,
+            Err(TryLockError::WouldBlock) => false,
+            Err(TryLockError::Error(_)) => is_new || !text(&path).is_some_and(|by| may_live(&by)),
+        };
+        if !is_free {
+            return Ok(None);
         }
         let by = format!("{} process {}\n", host(), std::process::id());
         let told = file.set_len(0).and_then(|()| file.write_all(by.as_bytes()));
