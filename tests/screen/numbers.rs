@@ -214,12 +214,14 @@ fn check_life(screen: &[String], bench: &Bench, at: &Closed) {
     assert!(cycles.contains(&life.cycle_factor), "{cycles:?}");
     let paper = life.detail.life_global.unwrap();
     assert_eq!(word(screen, "paper's count "), sig(paper, 2));
-    let band = format!(
-        "{}–{}",
-        sig(life.life_relative_low, 2),
-        sig(life.life_relative_high, 2)
-    );
-    assert_eq!(word(screen, "num. error "), band);
+    let (low, high) = (life.life_relative_low, life.life_relative_high);
+    let half = 0.5 * (high / low).ln();
+    if half < 0.05 {
+        assert_eq!(word(screen, "num. error ± "), sig(100.0 * half, 1));
+    } else {
+        let band = format!("{}–{}", sig(low, 2), sig(high, 2));
+        assert_eq!(word(screen, "num. error "), band);
+    }
 }
 
 /// The marker on the curve of life against S stands at the knob's S and the leading life.

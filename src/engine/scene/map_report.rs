@@ -195,7 +195,7 @@ impl MapReport {
             MapEdge::Windowed => "mean of the rim",
         };
         match self.level {
-            MapLevel::None => return "nothing".to_owned(),
+            MapLevel::None => "nothing".to_owned(),
             MapLevel::Mean => format!("the {mean}"),
             MapLevel::Plane => format!("the best plane and the {mean}"),
             MapLevel::Quadratic => format!("the best quadratic and the {mean}"),

@@ -44,7 +44,7 @@ impl Driver {
             let leg = sim.inside(|sim| self.drive(sim));
             sim = match self.change(ladder, sim, leg) {
                 Ok(sim) => sim,
-                Err(ended) => return ended,
+                Err(ended) => return *ended,
             };
         }
     }
@@ -58,17 +58,17 @@ impl Driver {
         ladder: &Ladder,
         sim: Simulation,
         leg: Leg,
-    ) -> Result<Simulation, (End, Option<Simulation>)> {
+    ) -> Result<Simulation, Box<(End, Option<Simulation>)>> {
         let next = match leg {
             Leg::Up => self.up(ladder, sim),
             Leg::Down => self.down(ladder, sim),
             Leg::Ended(End::Stalled(error)) => match self.not_by_this_way(ladder, &sim) {
                 Some(other) => other,
-                None => return Err((End::Stalled(error), Some(sim))),
+                None => return Err(Box::new((End::Stalled(error), Some(sim)))),
             },
-            Leg::Ended(end) => return Err((end, Some(sim))),
+            Leg::Ended(end) => return Err(Box::new((end, Some(sim)))),
         };
-        next.map_err(|error| (End::NotStarted(error), None))
+        next.map_err(|error| Box::new((End::NotStarted(error), None)))
     }
 
     pub(super) fn first_mesh(&mut self, ladder: &Ladder) -> Result<Simulation, SimError> {

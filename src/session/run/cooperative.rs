@@ -91,7 +91,8 @@ impl Cooperative {
                 self.sim = Some(sim);
                 None
             }
-            Err((end, sim)) => {
+            Err(ended) => {
+                let (end, sim) = *ended;
                 self.sim = sim;
                 Some(end)
             }
