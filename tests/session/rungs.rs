@@ -129,9 +129,12 @@ const SMALL: [&str; 8] = [
     "numerics.order=second",
 ];
 
+/// Step, time, nodes along x and pressure.
+type Row = (u64, f64, usize, Vec<f32>);
+
 /// Frames of a run.
 #[derive(Debug, Default, Clone)]
-struct Frames(Arc<Mutex<Vec<(u64, f64, usize, Vec<f32>)>>>);
+struct Frames(Arc<Mutex<Vec<Row>>>);
 
 impl Observer for Frames {
     fn begin(&mut self, _: &RunContext) -> Result<(), ObserveError> {
@@ -259,7 +262,7 @@ fn a_turned_knob_goes_down_and_the_run_is_repeated_bit_for_bit() {
     let turns: Vec<HandTurn> = outcome
         .applied
         .iter()
-        .filter_map(|one| one.to_repeat())
+        .filter_map(asperity_session::run::AppliedCommand::to_repeat)
         .collect();
     let again = Frames::default();
     let last = *steps.last().unwrap();
