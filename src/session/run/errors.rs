@@ -33,7 +33,7 @@ use asperity_engine::scene::{Order, Scene};
 use asperity_engine::sim::Summary;
 
 /// Fewest nodes per side that a run on half the nodes makes sense on.
-pub(super) const FEWEST_NODES: usize = 33;
+const FEWEST_NODES: usize = 33;
 
 /// Why there is no estimate.
 #[derive(Debug, Clone, Error)]

@@ -12,10 +12,10 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use asperity_engine::plan::Plan;
-use asperity_engine::scene::{ErrorSource, Scene};
+use asperity_engine::scene::Scene;
 use asperity_engine::sim::{Rung, SimError, Simulation, State, Summary, head_start};
 
-use super::errors::{FEWEST_NODES, coarser};
+use super::errors::coarser;
 
 /// Fewest nodes per side of the first mesh, where there is a second one.
 const FIRST_NODES: usize = 65;
@@ -60,7 +60,7 @@ impl Ladder {
             plan: plan.clone(),
         }];
         while scene.numerics.ladder
-            && let Some(mesh) = below(&meshes[0], meshes.len() > 1)
+            && let Some(mesh) = below(&meshes[0])
         {
             meshes.insert(0, mesh);
         }
@@ -131,16 +131,12 @@ impl Ladder {
     }
 }
 
-/// The mesh of half the intervals, if a run may begin on it: it carries the waves, or there would be no error estimate.
-fn below(mesh: &Mesh, is_second: bool) -> Option<Mesh> {
+/// The mesh of half the intervals, if it carries the waves.
+fn below(mesh: &Mesh) -> Option<Mesh> {
     let scene = coarser(&mesh.scene, &mesh.plan).ok()?;
     let plan = Plan::new(&scene).ok()?;
-    let nodes = plan.domain.nodes;
-    let carries = nodes >= FIRST_NODES && fewest_wave_nodes(&plan) >= FIRST_WAVE_NODES;
-    let estimates = !is_second
-        && scene.numerics.error_estimate == ErrorSource::Companion
-        && nodes >= FEWEST_NODES;
-    (carries || estimates).then(|| Mesh {
+    let carries = plan.domain.nodes >= FIRST_NODES && fewest_wave_nodes(&plan) >= FIRST_WAVE_NODES;
+    carries.then(|| Mesh {
         scene: Arc::new(scene),
         plan,
     })
