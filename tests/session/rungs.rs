@@ -7,7 +7,7 @@ use std::time::Duration;
 use asperity_engine::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
-use asperity_engine::sim::{Frame, Knob, Summary};
+use asperity_engine::sim::{Frame, Knob, SimError, Simulation, Summary};
 use asperity_session::run::{
     Checkpoint, Command, Companion, End, Ending, HandTurn, Ladder, Outcome, Request, Session,
     Watcher,
@@ -208,6 +208,39 @@ fn a_run_that_is_stopped_on_any_mesh_goes_on_bit_for_bit() {
         assert_eq!(untimed(&outcome), untimed(&whole_outcome), "{wait_ms} ms");
     }
     assert!(meshes.len() > 1, "{meshes:?}");
+}
+
+#[test]
+fn a_climb_that_no_run_makes_is_refused() {
+    let run = scene("demonstration_quick", &SMALL);
+    let session = Session::start(request(&run, Ending::Passages, Vec::new())).unwrap();
+    // Stopped on the first mesh, with its passage begun.
+    while session.handle.status().nodes != 129 && !session.is_finished() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    session.handle.send(Command::Stop);
+    let whole = session.join().unwrap().checkpoint.unwrap();
+    type Spoil = fn(&mut Checkpoint);
+    let table: [(&str, Spoil); 3] = [
+        ("no such mesh", |saved| saved.climb.nodes = 77),
+        ("another mesh", |saved| saved.climb.nodes = 65),
+        ("a launch of another scene", |saved| {
+            let other = scene(
+                "demonstration_quick",
+                &[&SMALL[..], &["stress.depths=9"]].concat(),
+            );
+            let sim = Simulation::new(&other, Plan::new(&other).unwrap(), 1).unwrap();
+            saved.climb.launch = Some(sim.save());
+        }),
+    ];
+    for (what, spoil) in table {
+        let mut saved = (*whole).clone();
+        spoil(&mut saved);
+        let resumed = Session::resume(request(&run, Ending::Passages, Vec::new()), saved);
+        let end = resumed.unwrap().join().unwrap().end;
+        let refused = matches!(end, End::NotStarted(SimError::State(_)));
+        assert!(refused, "{what}: {end:?}");
+    }
 }
 
 /// Waits until the run has settled on its last mesh.

@@ -284,14 +284,22 @@ impl Simulation {
         self.state.clone()
     }
 
+    /// Whether a simulation of this scene can have left that state.
+    ///
+    /// # Errors
+    /// [`SimError::State`] when it cannot.
+    pub fn check(&self, state: &State) -> Result<(), SimError> {
+        check(&self.plan, &self.state, &self.work, state)?;
+        check_course(&self.plan, &self.state, &self.work, state)
+    }
+
     /// Goes on from `state`, saved by a simulation of the same scene. Work is counted as before
     /// ([`Simulation::count_from`]).
     ///
     /// # Errors
     /// [`SimError::State`] when the state does not fit the scene; the simulation is as it was.
     pub fn restore(&mut self, state: &State) -> Result<(), SimError> {
-        check(&self.plan, &self.state, &self.work, state)?;
-        check_course(&self.plan, &self.state, &self.work, state)?;
+        self.check(state)?;
         self.state.restore(state);
         self.work.solve_on(&self.plan, self.state.nodes);
         see_again(&self.plan, &self.state, &mut self.work);

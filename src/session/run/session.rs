@@ -62,16 +62,17 @@ impl Session {
             climb: checkpoint.climb.clone(),
             ..Start::default()
         };
-        let mesh = start.ladder.as_ref().and_then(|ladder| {
-            let nodes = checkpoint.climb.nodes;
-            let mut meshes = ladder.meshes().iter();
-            meshes.find(|mesh| mesh.plan.domain.nodes == nodes).cloned()
-        });
+        let nodes = checkpoint.climb.nodes;
+        let ladder = start.ladder.clone();
         Self::spawn(request, start, move |scene| {
             checkpoint
                 .fits(scene)
                 .map_err(|error| SimError::State(error.to_string()))?;
-            let mut sim = match &mesh {
+            let mesh = match &ladder {
+                Some(ladder) => Some(ladder.mesh(nodes).ok_or_else(no_such_mesh)?.0),
+                None => None,
+            };
+            let mut sim = match mesh {
                 Some(mesh) => Simulation::new(&mesh.scene, mesh.plan.clone(), threads)?,
                 None => Simulation::new(scene, plan, threads)?,
             };
@@ -79,6 +80,9 @@ impl Session {
                 sim.hand_on();
             }
             sim.restore(&checkpoint.sim)?;
+            if let Some(launch) = &checkpoint.climb.launch {
+                sim.check(launch)?;
+            }
             sim.count_from(checkpoint.stats)?;
             Ok(sim)
         })
@@ -151,4 +155,8 @@ impl Session {
             RunError::Panicked(text.unwrap_or_else(|| "no message".to_owned()))
         })
     }
+}
+
+fn no_such_mesh() -> SimError {
+    SimError::State("the run climbs no mesh of its nodes".to_owned())
 }

@@ -18,7 +18,9 @@ use super::follow::{SettlingSteps, cold_distances};
 use super::present::conditions;
 use super::watching::{publish, see_again};
 use crate::plan::{Plan, TimeDependence};
+use crate::saved::Saved as _;
 use crate::scene::{Scene, Surface};
+use crate::sim::drive::Drive;
 use crate::sim::measure::{Fields, Measured, RowSums, measure};
 use crate::sim::motion::Travel;
 use crate::sim::sim_plan::SimPlan;
@@ -108,7 +110,6 @@ fn fitting<'a>(
     };
     let empty = ContactState::empty(plan.grid(lower.nodes).len(), work.solver.is_unlike());
     for contact in [&lower.contact, reference] {
-        use crate::saved::Saved as _;
         if empty.check(contact).is_err() {
             return refuse("its contact is not of this scene");
         }
@@ -117,11 +118,7 @@ fn fitting<'a>(
 }
 
 /// Knobs of the smooth contact at such a load and speed.
-pub(super) fn smooth_drive(
-    plan: &SimPlan,
-    state: &State,
-    at: LoadAndSpeed,
-) -> crate::sim::drive::Drive {
+pub(super) fn smooth_drive(plan: &SimPlan, state: &State, at: LoadAndSpeed) -> Drive {
     let mut drive = state.targets.smooth();
     drive.jump(plan.scaling.load_knob(), at.load);
     drive.jump(Knob::EntrainmentMS, at.speed_m_s);

@@ -38,6 +38,9 @@ pub(super) fn check(
 ) -> Result<(), SimError> {
     let smooth = saved.smooth.as_ref();
     let contacts = smooth.map(|smooth| (smooth.nodes, &smooth.contact));
+    let reference = saved.reference.as_ref();
+    let contacts =
+        (contacts.into_iter()).chain(reference.map(|contact| (plan.decided.domain.nodes, contact)));
     for (nodes, contact) in [(saved.nodes, &saved.contact)].into_iter().chain(contacts) {
         let on_a_grid = plan.climb().any(|n| n == nodes);
         demand(on_a_grid, "its grid is not this scene's")?;
