@@ -36,6 +36,9 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> St
     }
     if let Some(summary) = &outcome.summary {
         lines.add("run", run_line(outcome));
+        if let Some(words) = steps_of_tolerance(scene, outcome) {
+            lines.add("", words);
+        }
         for (n, done) in summary.rungs.iter().enumerate() {
             let name = if n == 0 { "meshes" } else { "" };
             lines.add(name, format!("{}²: {}", done.nodes, rung(done)));
@@ -65,6 +68,18 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> St
         }
     }
     lines.0
+}
+
+/// Adaptive steps that are more than the fixed ones would be.
+fn steps_of_tolerance(scene: &Scene, outcome: &Outcome) -> Option<String> {
+    let tolerance = scene.time.tolerance?;
+    let fixed = outcome
+        .steps_planned
+        .filter(|fixed| outcome.steps > *fixed)?;
+    Some(format!(
+        "time.tolerance = {tolerance} took more steps than the {fixed} of time.step_nodes = {} alone",
+        scene.time.step_nodes
+    ))
 }
 
 fn run_line(outcome: &Outcome) -> String {

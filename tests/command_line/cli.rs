@@ -425,3 +425,17 @@ fn an_interrupt_ends_cleanly_with_what_was_made() {
     let columns = text.lines().next().unwrap().split(',').count();
     assert!(text.lines().all(|line| line.split(',').count() == columns));
 }
+
+#[test]
+fn a_tolerance_that_takes_more_steps_than_fixed_ones_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    for (set, is_said) in [
+        ("--set=time.tolerance=1e-2", true),
+        ("--set=time.step_nodes=0.5", false),
+    ] {
+        let output = small(folder.path(), &[set, "--no-record"]);
+        let told = text(&output.stdout);
+        let found = told.contains("took more steps than the");
+        assert_eq!(found, is_said, "{told}");
+    }
+}
