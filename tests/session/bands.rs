@@ -2,7 +2,7 @@
 //!
 //! `cargo test --release -p asperity-session --test session bands:: -- --ignored --nocapture` prints every quantity of every
 //! case and, of each quantity, how often the band covers the truth and how wide it is over the true error at the median.
-//! `ASPERITY_CASES=n` runs the first n cases: the presets with a life, then random operating points of theirs.
+//! `ASPERITY_CASES=n` runs the first n cases, `m..n` those after m: the presets with a life, then random operating points of theirs.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use std::sync::Arc;
@@ -148,10 +148,10 @@ fn rows(case: &Case) -> Vec<Row> {
 #[test]
 #[ignore = "an hour of a processor"]
 fn how_often_they_cover_the_truth() {
-    let n = std::env::var("ASPERITY_CASES").ok();
-    let n = n.and_then(|text| text.parse().ok()).unwrap_or(CASES);
-    let mut cases = cases();
-    cases.truncate(n);
+    let asked = std::env::var("ASPERITY_CASES").unwrap_or_default();
+    let (from, to) = asked.split_once("..").unwrap_or(("0", &asked));
+    let (from, to) = (from.parse().unwrap_or(0), to.parse().unwrap_or(CASES));
+    let cases: Vec<Case> = cases().into_iter().take(to).skip(from).collect();
     let tell = |case: &Case| {
         let rows = rows(case);
         for (case, name, value, band, truth) in &rows {

@@ -210,6 +210,9 @@ fn a_run_that_is_stopped_on_any_mesh_goes_on_bit_for_bit() {
     assert!(meshes.len() > 1, "{meshes:?}");
 }
 
+/// What makes a saved run one that no run saves.
+type Spoil = fn(&mut Checkpoint);
+
 #[test]
 fn a_climb_that_no_run_makes_is_refused() {
     let run = scene("demonstration_quick", &SMALL);
@@ -220,7 +223,6 @@ fn a_climb_that_no_run_makes_is_refused() {
     }
     session.handle.send(Command::Stop);
     let whole = session.join().unwrap().checkpoint.unwrap();
-    type Spoil = fn(&mut Checkpoint);
     let table: [(&str, Spoil); 3] = [
         ("no such mesh", |saved| saved.climb.nodes = 77),
         ("another mesh", |saved| saved.climb.nodes = 65),
