@@ -236,12 +236,13 @@ fn whatever_cannot_be_written_is_code_4() {
             "{words}"
         );
     }
-    // The recording is as long as the limit when it is finished, and was longer before.
+    // The recording is longer than the limit when it is finished, if it was not before. How frames fall into batches is a
+    // matter of the clock, and with it some hundred bytes.
     let whole = place.join("whole.rrd");
     let done = limited(place, 1 << 20, "0.5", &["--out=whole.rrd"]);
     assert!(matches!(done.status.code(), Some(0 | 2)), "{}", told(&done));
     let fits = std::fs::metadata(&whole).unwrap().len() / 1024;
-    let output = limited(place, fits, "0.5", &["--out=short.rrd"]);
+    let output = limited(place, fits - 4, "0.5", &["--out=short.rrd"]);
     let words = told(&output);
     assert_eq!(output.status.code(), Some(4), "{words}");
     let left: Vec<String> = std::fs::read_dir(place)
