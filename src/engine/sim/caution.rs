@@ -7,7 +7,8 @@
 //! map_doubtful   the best plane, or outlying pixels, of a height map are left in
 //! mesh_film      error of the smooth central film by the mesh > 5 %             at the knobs' present values
 //! short_domain   the same by the edges of the domain > 1 %                      likewise
-//! crests_not_felt  crests that press less than a thousandth of Hertz's pressure, of a count above 1
+//! crests_not_felt  crests that press less than a thousandth of Hertz's pressure, or of which material points count less than
+//!                  a tenth, of a count above 1
 //! model_range    greatest over least life of the choices > 2
 //! above_smooth   the whole band of life above 1.01
 //! ```
@@ -16,8 +17,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Frame, Grounds, LifeEstimate, Metrics, Rhythm};
-use crate::math::number::sig;
-use crate::physics::felt::FELT;
+use crate::math::number::{fixed, sig};
+use crate::physics::felt::{FELT, felt_where_counted};
 use crate::physics::strength::Strength;
 use crate::plan::{EDGES_WORTH_A_WORD, MOLECULE_M};
 use crate::scene::{Doubt, StressMeasure};
@@ -300,21 +301,31 @@ fn not_settled(m: &Metrics, grounds: &Grounds) -> Option<String> {
 
 /// Body 1 counts the crests of body 2, and the other way round.
 fn crests_not_felt(m: &Metrics, grounds: &Grounds) -> Option<String> {
-    let n = [m.n_body_1, m.n_body_2];
-    let unfelt = [1, 0].map(|mate: usize| {
-        let n = n[1 - mate].filter(|n| *n > 1.0 && grounds.felt[mate] < 1.0)?;
-        let (body, mate, n) = (2 - mate, mate + 1, sig(n, 3));
+    let bodies = [
+        (1, m.n_body_1, m.n_counted_body_1),
+        (2, m.n_body_2, m.n_counted_body_2),
+    ];
+    let unfelt = bodies.into_iter().filter_map(|(body, n, counted)| {
+        let n = n.filter(|n| *n > 1.0 && grounds.felt[body - 1] < 1.0)?;
+        let counted = counted.filter(|counted| felt_where_counted(n, *counted) < 1.0);
+        let why = match counted {
+            Some(counted) => format!("its points count {}", fixed(counted, 2)),
+            None => format!("they press less than {} % of Hertz", sig(100.0 * FELT, 1)),
+        };
+        let (mate, n) = (3 - body, sig(n, 3));
         Some(format!(
-            "{n} contacts of body {body} by formula count crests of body {mate}"
+            "{n} contacts of body {body} by formula count crests of body {mate}, but {why}"
         ))
     });
-    let unfelt: Vec<String> = unfelt.into_iter().flatten().collect();
+    let unfelt: Vec<String> = unfelt.collect();
     (grounds.has_life && !unfelt.is_empty()).then(|| {
-        format!(
-            "{}, which press less than {} % of Hertz: the contact does not feel them, and the spread leaves them out",
-            unfelt.join(", "),
-            sig(100.0 * FELT, 1)
-        )
+        let in_part = grounds.felt.iter().any(|felt| (1e-9..1.0).contains(felt));
+        let how = if in_part {
+            "the contact hardly feels them, and the spread leaves them out in part"
+        } else {
+            "the contact does not feel them, and the spread leaves them out"
+        };
+        format!("{}: {how}", unfelt.join("; "))
     })
 }
 

@@ -2,10 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Metrics;
 use super::damage_count::DamageCount;
 use super::stress_stage::StressStage;
 use crate::math::grid::Grid;
 use crate::physics::cycles::{BodyId, Kinematics};
+use crate::physics::felt::felt_where_counted;
 use crate::physics::life_models::CycleProfile;
 use crate::plan::Plan;
 use crate::saved::saved;
@@ -271,11 +273,21 @@ pub(super) fn contacts(
     })
 }
 
-/// How much a contact of `size` times the scene's feels of the crests of both bodies, 0 to 1, by those amplitudes.
-pub(super) fn felt(plan: &Plan, size: f64, amplitudes_m: [f64; 2]) -> [f64; 2] {
+/// How much a body of a contact of `size` times the scene's feels of the crests of the other, 0 to 1: body 1, body 2.
+pub(super) fn felt_at_points(plan: &Plan, size: f64, m: &Metrics) -> [f64; 2] {
     // The pressure grows as the half-width does.
     let p_hertz_pa = plan.hertz.p_max_pa * size;
-    [0, 1].map(|body: usize| {
-        plan.waves[body].map_or(1.0, |wave| wave.felt(amplitudes_m[body], p_hertz_pa))
+    let amplitudes_m = [m.amplitude_1_m, m.amplitude_2_m];
+    let by_count = [
+        (m.n_body_1, m.n_counted_body_1),
+        (m.n_body_2, m.n_counted_body_2),
+    ];
+    BodyId::BOTH.map(|body| {
+        let mate = body.mate().index();
+        let by_pressure =
+            plan.waves[mate].map_or(1.0, |wave| wave.felt(amplitudes_m[mate], p_hertz_pa));
+        let (n, counted) = by_count[body.index()];
+        let by_count = n.zip(counted);
+        by_pressure * by_count.map_or(1.0, |(n, counted)| felt_where_counted(n, counted))
     })
 }

@@ -26,7 +26,7 @@ pub struct Grounds {
     pub mesh_film: Option<f64>,
     /// The same by the edges of the domain.
     pub short_domain: Option<f64>,
-    /// How much the contact feels of the crests of body 1 and 2, 0 to 1.
+    /// How much body 1 and 2 feel of the crests of the other, 0 to 1.
     pub felt: [f64; 2],
     /// Whether the scene computes a life.
     pub has_life: bool,

@@ -2,6 +2,7 @@
 //! grounds of cautions.
 
 use crate::plan::{Domain, FilmPlan};
+use crate::sim::counting::felt_at_points;
 use crate::sim::measure::Measured;
 use crate::sim::sim_plan::SimPlan;
 use crate::sim::smooth::LoadAndSpeed;
@@ -85,11 +86,7 @@ pub(super) fn grounds(plan: &SimPlan, state: &State) -> Grounds {
         half_width_m: size * hertz.a_m.min(hertz.b_m),
         film_m: film.map(|film| film.central_m),
         flows,
-        felt: crate::sim::counting::felt(
-            &plan.decided,
-            size,
-            [state.metrics.amplitude_1_m, state.metrics.amplitude_2_m],
-        ),
+        felt: felt_at_points(&plan.decided, size, &state.metrics),
         mesh_film: mesh_film.filter(|_| flows),
         short_domain: film.filter(|_| flows).map(|film| {
             let domain = &plan.decided.domain;

@@ -2,7 +2,7 @@
 
 use super::present::{has_reference_of_now, publish_lubrication, stress_error_now};
 use crate::physics::felt::felt_contacts;
-use crate::sim::counting::{contacts, felt};
+use crate::sim::counting::{contacts, felt_at_points};
 use crate::sim::fatigue_stage::Now;
 use crate::sim::measure::{Fields, Measured, measure};
 use crate::sim::roughness::Roughness;
@@ -183,12 +183,10 @@ pub(super) fn life_estimate(plan: &SimPlan, state: &State) -> Option<LifeEstimat
     let m = &state.metrics;
     let size = plan.size_now(&state.drive);
     let n = [m.n_body_1, m.n_body_2];
-    // Each body counts the crests of the other.
-    let [felt_1, felt_2] = felt(&plan.decided, size, [m.amplitude_1_m, m.amplitude_2_m]);
-    let n_felt = [(n[0], felt_2), (n[1], felt_1)];
+    let felt = felt_at_points(&plan.decided, size, m);
     let now = Now {
         n,
-        n_felt: n_felt.map(|(n, weight)| Some(felt_contacts(n?, weight))),
+        n_felt: [0, 1].map(|body: usize| Some(felt_contacts(n[body]?, felt[body]))),
         slide_roll: state.metrics.slide_roll,
         size,
         stress_error: stress_error_now(plan, state),
