@@ -2,6 +2,8 @@
 //!
 //! `cargo test --release -p asperity-session --test session bands:: -- --ignored --nocapture` prints every quantity of every
 //! case and, of each quantity, how often the band covers the truth and how wide it is over the true error at the median.
+//! `-- stalls --ignored` counts what ends otherwise than it should on the ladder and on its last mesh alone, over 500 such
+//! points from twice as wide ranges.
 //! `ASPERITY_CASES=n` runs the first n cases, `m..n` those after m: the presets with a life, then random operating points of theirs.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
@@ -10,7 +12,7 @@ use std::sync::Arc;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{ContactKind, Override, Scene, presets};
 use asperity_engine::sim::Summary;
-use asperity_session::run::{End, Ending, Request, Session, share_out};
+use asperity_session::run::{End, Ending, Outcome, Request, Session, share_out};
 
 /// Cases in all.
 const CASES: usize = 40;
@@ -22,7 +24,7 @@ struct Case {
 }
 
 /// Numbers of a sequence that is the same everywhere (Knuth's linear congruential generator), 0 to 1.
-struct Sequence(u64);
+struct Sequence(u64, f64);
 
 impl Sequence {
     fn next(&mut self) -> f64 {
@@ -31,8 +33,9 @@ impl Sequence {
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Between two factors, even in the logarithm.
+    /// Between two factors to the power `self.1`, even in the logarithm.
     fn factor(&mut self, from: f64, to: f64) -> f64 {
+        let [from, to] = [from, to].map(|factor| factor.powf(self.1));
         from * (to / from).powf(self.next())
     }
 }
@@ -42,7 +45,8 @@ fn load(name: &str, sets: &[String]) -> Option<Scene> {
     Scene::load_with(name, &sets).ok()
 }
 
-fn cases() -> Vec<Case> {
+/// Presets, then operating points; `wide`: by which power of the usual factors.
+fn cases(n: usize, wide: f64) -> Vec<Case> {
     let named = |name: &str, sets: Vec<String>| Case {
         name: name.to_owned(),
         sets,
@@ -51,8 +55,8 @@ fn cases() -> Vec<Case> {
     let with_life = |name: &&str| load(name, &[]).unwrap().life.is_some();
     let names: Vec<&str> = names.into_iter().filter(with_life).collect();
     let mut cases: Vec<Case> = names.iter().map(|name| named(name, Vec::new())).collect();
-    let mut sequence = Sequence(33);
-    while cases.len() < CASES {
+    let mut sequence = Sequence(33, wide);
+    while cases.len() < n {
         let name = names[(sequence.next() * names.len() as f64) as usize];
         let scene = load(name, &[]).unwrap();
         let load_n = scene.force_n() * sequence.factor(0.5, 1.5);
@@ -101,7 +105,13 @@ fn values(s: &Summary) -> [(&'static str, f64, f64); 4] {
 }
 
 fn run(case: &Case, nodes: usize, passages: f64) -> Option<Summary> {
+    let outcome = outcome(case, nodes, passages, true)?;
+    matches!(outcome.end, End::Done).then_some(outcome.summary)?
+}
+
+fn outcome(case: &Case, nodes: usize, passages: f64, ladder: bool) -> Option<Outcome> {
     let mut sets = case.sets.clone();
+    sets.push(format!("numerics.ladder={ladder}"));
     sets.push(format!("grid.nodes={nodes}"));
     sets.push(format!("time.passages={passages}"));
     let mut scene = load(&case.name, &sets)?;
@@ -114,8 +124,7 @@ fn run(case: &Case, nodes: usize, passages: f64) -> Option<Summary> {
         watchers: Vec::new(),
         ending: Ending::Passages,
     };
-    let outcome = Session::start(request).unwrap().join().unwrap();
-    matches!(outcome.end, End::Done).then_some(outcome.summary)?
+    Some(Session::start(request).unwrap().join().unwrap())
 }
 
 /// Of one quantity of one case: value, band, truth, and what the meshes below had.
@@ -151,7 +160,7 @@ fn how_often_they_cover_the_truth() {
     let asked = std::env::var("ASPERITY_CASES").unwrap_or_default();
     let (from, to) = asked.split_once("..").unwrap_or(("0", &asked));
     let (from, to) = (from.parse().unwrap_or(0), to.parse().unwrap_or(CASES));
-    let cases: Vec<Case> = cases().into_iter().take(to).skip(from).collect();
+    let cases: Vec<Case> = cases(CASES, 1.0).into_iter().take(to).skip(from).collect();
     let tell = |case: &Case| {
         let rows = rows(case);
         for (case, name, value, band, truth) in &rows {
@@ -181,4 +190,48 @@ fn how_often_they_cover_the_truth() {
         println!("| {name} | {} | {covered} | {median:.1} |", ratios.len());
     }
     assert!(!all.is_empty());
+}
+
+/// Cases that are counted for stalls, unless `ASPERITY_CASES` says how many.
+const STALLS: usize = 500;
+
+#[test]
+#[ignore = "half an hour of a processor"]
+fn a_ladder_stalls_no_more_often_than_its_last_mesh_alone() {
+    let n = std::env::var("ASPERITY_CASES").ok();
+    let n = n.and_then(|n| n.parse().ok()).unwrap_or(STALLS);
+    let tell = |case: &Case| {
+        let ways = [true, false].map(|ladder| {
+            let ended = outcome(case, 129, 0.1, ladder)?;
+            let unsolved = ended.summary.map(|s| s.steps_not_converged);
+            Some((matches!(ended.end, End::Done), unsolved.unwrap_or(0)))
+        });
+        if ways
+            .iter()
+            .flatten()
+            .any(|(done, unsolved)| !done || *unsolved > 0)
+        {
+            println!("{ways:?} {} {}", case.name, case.sets.join(" "));
+        }
+        ways
+    };
+    let found = share_out(&cases(n, 2.0), 2, tell, &mut |_, _| {});
+    let count = |way: usize, is: &dyn Fn(&(bool, u64)) -> bool| {
+        found
+            .iter()
+            .filter(|ways| ways[way].as_ref().is_some_and(is))
+            .count()
+    };
+    let table = [0, 1].map(|way| {
+        [
+            count(way, &|_| true),
+            count(way, &|(done, _)| !done),
+            count(way, &|(_, unsolved)| *unsolved > 0),
+        ]
+    });
+    println!(
+        "ran, ended early, with steps unsolved: ladder {:?}, alone {:?}",
+        table[0], table[1]
+    );
+    assert!(table[0][1] <= table[1][1] && table[0][2] <= table[1][2]);
 }

@@ -9,7 +9,7 @@ use super::keys::{self, EVENT_KEYS, Key, Kind, Need, SECTIONS, Section, joined, 
 use super::model::{Event, Scene, Surface};
 use super::shape::{check_carried, check_force, check_hardness, check_load, check_shape};
 use super::wrong::refusal;
-use crate::math::number::apart;
+use crate::math::number::{apart, trimmed};
 use crate::physics::gear::GearTeeth;
 
 /// Checks a whole table against the keys, whole numbers turned into floats where floats are meant.
@@ -286,7 +286,7 @@ fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
             return if slope > SLOPE_MAX {
                 Err(SceneError::value(
                     joined(path, "amplitude_m"),
-                    format!("{} m", short(amplitude_m)),
+                    format!("{} m", trimmed(amplitude_m, 4)),
                     format!(
                         "a slope 2 pi Rq/W of at most {SLOPE_MAX}; this one is {}, W the shortest significant wave{}",
                         beyond(slope),
