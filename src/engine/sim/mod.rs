@@ -12,6 +12,7 @@ mod fields;
 mod frame;
 mod grounds;
 mod knob;
+mod last_period;
 mod lubrication;
 mod measure;
 mod motion;

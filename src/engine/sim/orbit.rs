@@ -16,8 +16,10 @@ use serde::{Deserialize, Serialize};
 
 use super::Metrics;
 use super::estimates::{Repeat, Rhythm};
+use super::last_period::LastPeriod;
 use crate::saved::saved;
 use crate::solve::life::Window;
+use crate::solve::march::ContactState;
 
 /// Longest period that is looked for, in a.
 pub(super) const LONGEST: f64 = 16.0;
@@ -95,6 +97,7 @@ pub(super) struct Orbit {
     reference: OrbitStep,
     /// The last four steps, oldest first.
     ring: [OrbitStep; 4],
+    last_period: LastPeriod,
     taken: u32,
     means: Means,
     before: Option<[f64; 4]>,
@@ -103,7 +106,7 @@ pub(super) struct Orbit {
 
 saved! {
     Orbit {
-        parts: reference, ring;
+        parts: reference, ring, last_period;
         free: frequencies, rhythm, period, span, taken, means, before, drift;
     }
     holds |_, saved| saved.period > 0.0
@@ -119,6 +122,7 @@ impl Orbit {
             span: 1.0,
             reference: OrbitStep::of(len),
             ring: std::array::from_fn(|_| OrbitStep::of(len)),
+            last_period: LastPeriod::new(len),
             taken: 0,
             means: Means::default(),
             before: None,
@@ -129,6 +133,7 @@ impl Orbit {
     /// Begins anew: what was before belongs to other conditions.
     pub(super) fn restart(&mut self) {
         self.taken = 0;
+        self.last_period.restart();
         self.before = None;
         self.drift = None;
         self.means = Means::default();
@@ -177,13 +182,16 @@ impl Orbit {
         &mut self,
         distance: f64,
         step: f64,
-        pressure: &[f64],
-        film: &[f64],
+        contact: &ContactState,
         metrics: &Metrics,
     ) {
         if self.rhythm == Rhythm::Statistics {
             self.push_means(distance, step, metrics);
             return;
+        }
+        let (pressure, film) = (&contact.pressure, &contact.film);
+        if self.rhythm == Rhythm::Orbit {
+            (self.last_period).push(distance, step, self.period, contact.h0, pressure);
         }
         self.ring.rotate_left(1);
         self.ring[3].take(distance, pressure, film);
@@ -197,6 +205,16 @@ impl Orbit {
             self.drift = Some(self.compare(target));
             self.begin(step);
         }
+    }
+
+    /// Guess of a step that ends at `distance`, from a period ago: H0, and the pressure in `guess`.
+    pub(super) fn guess(&self, distance: f64, guess: &mut [f64]) -> Option<f64> {
+        self.last_period.guess(distance, self.period, guess)
+    }
+
+    /// The last period, where the passage may repeat.
+    pub(super) fn last_period(&mut self) -> &mut LastPeriod {
+        &mut self.last_period
     }
 
     /// The newest step becomes the reference.
@@ -318,7 +336,7 @@ fn common_period(frequencies: &[f64; 4]) -> Option<f64> {
 }
 
 /// Weights of the values at `distances` for the value at `target`.
-fn lagrange(distances: [f64; 4], target: f64) -> [f64; 4] {
+pub(super) fn lagrange(distances: [f64; 4], target: f64) -> [f64; 4] {
     std::array::from_fn(|i| {
         (0..4)
             .filter(|&k| k != i)
@@ -361,6 +379,7 @@ mod tests {
 
     fn drift(frequencies: [f64; 4], real: f64, step: f64, left: f64) -> Repeat {
         let mut orbit = Orbit::new(32, 4.0);
+        let mut contact = ContactState::empty(32, false);
         let mut metrics = Metrics::default();
         for n in 0..(12.0 / step) as usize {
             let distance = (n + 1) as f64 * step;
@@ -368,7 +387,9 @@ mod tests {
             metrics.h_central_m = field[16];
             (metrics.h_min_m, metrics.p_max_pa) = (1.0, 1.0);
             orbit.listen(frequencies, 4.0);
-            orbit.push(distance, step, &field, &field, &metrics);
+            contact.pressure.copy_from_slice(&field);
+            contact.film.copy_from_slice(&field);
+            orbit.push(distance, step, &contact, &metrics);
         }
         orbit.repeat(1.0)
     }

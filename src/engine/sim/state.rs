@@ -165,6 +165,13 @@ impl State {
         }
     }
 
+    /// Without what only its own run goes on with: enough for another that starts from it.
+    #[must_use]
+    pub fn for_neighbour(mut self) -> Self {
+        self.orbit.restart();
+        self
+    }
+
     /// Time steps since the start-up.
     pub fn passage_steps(&self) -> u64 {
         self.step

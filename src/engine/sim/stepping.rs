@@ -173,6 +173,8 @@ pub(super) struct Mover<'a> {
     pub(super) motion: &'a mut Travel,
     pub(super) plan: &'a SimPlan,
     pub(super) stepping: Stepping,
+    /// Guess of a step of the length that is asked for.
+    pub(super) given: Option<(&'a [f64], f64)>,
     /// What has yielded; `None`: elastic.
     pub(super) yielded: Option<&'a mut Yielded>,
 }
@@ -214,7 +216,8 @@ impl Mover<'_> {
 
     /// First rung: from the extrapolated pressure, then from the last one. `None`: neither converged.
     fn solve(&mut self, nodes: f64, done: &mut Attempted) -> Option<NewtonReport> {
-        for guess in [Guess::Extrapolated, Guess::Last] {
+        let given = (self.given.take()).map(|(pressure, h0)| Guess::Given(pressure, h0));
+        for guess in given.into_iter().chain([Guess::Extrapolated, Guess::Last]) {
             let report = self.attempt(nodes, guess);
             done.take(&report);
             if report.verdict == Verdict::Converged {

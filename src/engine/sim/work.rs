@@ -25,6 +25,8 @@ pub(super) struct Work {
     pub(super) stress: Option<StressStage>,
     pub(super) traction: Vec<f64>,
     pub(super) row_sums: Vec<RowSums>,
+    /// First guesses of a step: from a period ago, and extrapolated.
+    pub(super) guesses: [Vec<f64>; 2],
     /// Of the smooth contact beside the run, while there is one.
     pub(super) smooth: Option<SmoothWork>,
 }
@@ -47,6 +49,7 @@ impl Work {
             stress,
             traction: vec![0.0; fine.len()],
             row_sums: vec![RowSums::default(); fine.ny],
+            guesses: [vec![0.0; fine.len()], vec![0.0; fine.len()]],
             smooth: None,
             pool,
         })

@@ -78,12 +78,14 @@ impl ContactState {
 }
 
 /// Where a step's first guess comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Guess {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Guess<'a> {
     /// Extrapolated along characteristics.
     Extrapolated,
     /// The last committed pressure.
     Last,
+    /// This pressure and H0.
+    Given(&'a [f64], f64),
 }
 
 /// Constants of a contact.

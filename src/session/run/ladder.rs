@@ -84,7 +84,7 @@ impl Ladder {
     /// The first mesh, with a run on it.
     pub(super) fn ground(&self, sim: &Simulation) -> Option<(Arc<Scene>, State)> {
         let mesh = self.meshes.first()?;
-        Some((Arc::clone(&mesh.scene), sim.save()))
+        Some((Arc::clone(&mesh.scene), sim.save().for_neighbour()))
     }
 
     /// The mesh of so many nodes per side, and the next finer one.

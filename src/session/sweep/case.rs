@@ -296,7 +296,7 @@ impl RunningCase {
         let has_converged = record.end == CaseEnd::Converged;
         record.summary.converged = has_converged;
         record.seconds = self.started.elapsed_s();
-        (record, has_converged.then(|| sim.save()))
+        (record, has_converged.then(|| sim.save().for_neighbour()))
     }
 }
 

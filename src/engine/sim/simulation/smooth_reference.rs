@@ -98,6 +98,7 @@ fn advance_smooth(
             motion: &mut smooth.motion,
             plan,
             stepping: Stepping::Fixed(usual),
+            given: None,
             yielded: None,
         }
         .advance(usual)

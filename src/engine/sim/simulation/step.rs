@@ -143,6 +143,17 @@ fn advance(
     // The smooth contact that all lives are compared with is elastic.
     let is_smooth = matches!(state.phase, Phase::Smooth { .. });
     let yielded = state.yielded.as_mut().filter(|_| !is_smooth);
+    let [own, extrapolated] = &mut work.guesses;
+    let grid = &work.solver.grid;
+    let in_passage = state.phase == Phase::Passage;
+    let guessed = in_passage.then(|| (state.orbit).guess(state.distance + nodes * grid.dx, own));
+    let guessed = guessed.flatten();
+    if guessed.is_some() {
+        let history = &state.contact.history;
+        (work.pool).install(|| history.predict(grid, nodes, extrapolated));
+    }
+    let chosen = guessed.filter(|_| state.orbit.last_period().is_better());
+    let given = chosen.map(|h0| (&own[..], h0));
     let attempted = work.pool.install(|| {
         Mover {
             state: &mut state.contact,
@@ -152,6 +163,7 @@ fn advance(
             motion: &mut state.motion,
             plan,
             stepping,
+            given,
             yielded,
         }
         .advance(nodes)
@@ -160,6 +172,10 @@ fn advance(
     stats.add(&attempted, made);
     if let Some(error) = attempted.fatal(state.time_s) {
         return Err(error);
+    }
+    if guessed.is_some() {
+        let became = &state.contact.pressure;
+        (state.orbit.last_period()).judge(became, own, extrapolated);
     }
     state.time_s += attempted.dt_s;
     count_from_here(plan, state, walked, was_flushed);

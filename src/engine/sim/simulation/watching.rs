@@ -95,14 +95,8 @@ pub(super) fn look_for_orbit(
         life.set_window(state.orbit.life_window(passage));
     }
     if state.motion.is_flushed() {
-        let contact = &state.contact;
-        state.orbit.push(
-            state.distance,
-            state.distance - before,
-            &contact.pressure,
-            &contact.film,
-            &state.metrics,
-        );
+        let step = state.distance - before;
+        (state.orbit).push(state.distance, step, &state.contact, &state.metrics);
     }
     let second_per_a = plan.scaling.a_m / state.drive.get(Knob::EntrainmentMS).now;
     state.metrics.repeat = Some(state.orbit.repeat(second_per_a));

@@ -182,6 +182,10 @@ impl Solver {
         match guess {
             Guess::Extrapolated => history.predict(&self.grid, nodes, &mut self.trial.pressure),
             Guess::Last => self.trial.pressure.copy_from_slice(&history.pressure_1),
+            Guess::Given(pressure, h0) => {
+                self.trial.pressure.copy_from_slice(pressure);
+                self.trial.h0 = h0;
+            }
         }
         if self.flow == Flow::Dry {
             return self.attempt_dry(conditions);

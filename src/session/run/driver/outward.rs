@@ -116,7 +116,8 @@ impl Driver {
         } else {
             Closing::Life
         };
-        if let Some(mut settled) = gather.take(frame, closing, || Some(sim.save())) {
+        if let Some(mut settled) = gather.take(frame, closing, || Some(sim.save().for_neighbour()))
+        {
             settled.is_last = on_top;
             settled.ground = match (&self.ladder, &self.ground) {
                 (Some(ladder), Some(ground)) => ladder.ground(ground),
