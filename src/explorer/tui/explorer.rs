@@ -98,7 +98,7 @@ impl Explorer {
         effects.extend(self.app.advance(wall));
         let found = self.sweep.as_ref().map_or_else(Vec::new, Background::take);
         let progress = self.sweep.as_ref().and_then(Background::progress);
-        self.app.take_swept(found, progress);
+        effects.extend(self.app.take_swept(found, progress));
         self.carry_out(effects)
     }
 

@@ -15,6 +15,8 @@ use asperity_session::sweep::{Along, CurveOrder, CurvePoint, Found};
 const SWEPT: [f64; 10] = [0.0, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75];
 /// Values of S that are as good as the same.
 const SAME_S: f64 = 0.02;
+/// ln of the lives on both sides of a gap from which on its middle is visited too.
+const BEND: f64 = 0.25;
 /// Speeds that a sweep visits to either side of the scene's own, four to a decade.
 const SPEEDS: i32 = 4;
 /// Ratio of speeds that are as good as the same.
@@ -86,11 +88,22 @@ impl App {
         self.lives.simulated.push(new);
     }
 
-    /// Takes what a sweep has found; `progress`: values done and in all, `None` when there is no sweep.
-    pub fn take_swept(&mut self, found: Vec<Found>, progress: Option<(usize, usize)>) {
-        self.lives.sweep = progress.filter(|(done, all)| done < all);
+    /// Takes what a sweep has found; `progress`: values done and in all, `None` when there is no sweep. One that is done is
+    /// gone on with where the curve bends.
+    pub fn take_swept(
+        &mut self,
+        found: Vec<Found>,
+        progress: Option<(usize, usize)>,
+    ) -> Vec<Effect> {
+        let under_way = progress.filter(|(done, all)| done < all);
+        let was_under_way = std::mem::replace(&mut self.lives.sweep, under_way).is_some();
         for point in found {
             self.keep_point(point);
+        }
+        if was_under_way && under_way.is_none() {
+            self.begin_sweep()
+        } else {
+            Vec::new()
         }
     }
 
@@ -107,10 +120,16 @@ impl App {
                 Along::Entrainment => close(found.at.entrainment_m_s, value, SAME_SPEED),
             })
         };
-        let values: Vec<f64> = self.candidates(along).filter(|v| !known(*v)).collect();
+        // What was tried and gave nothing is not tried again.
+        let is_new = |value: &f64| !known(*value) && !self.lives.swept.contains(value);
+        let mut values: Vec<f64> = self.candidates(along).filter(is_new).collect();
+        if values.is_empty() && along == Along::SlideRoll {
+            values = self.bends().into_iter().filter(is_new).collect();
+        }
         if values.is_empty() {
             return Vec::new();
         }
+        self.lives.swept.extend(&values);
         self.lives.sweeping = along;
         let scene = self.scene_now();
         vec![Effect::Sweep(Box::new(CurveOrder {
@@ -142,6 +161,20 @@ impl App {
             .filter(move |value| (range[0]..=range[1]).contains(value))
     }
 
+    /// Values of S in the middle of gaps that the life changes much across.
+    fn bends(&self) -> Vec<f64> {
+        let place = |found: &Found| Some((found.at.slide_roll, found.life?[1].ln()));
+        let mut known: Vec<_> = (self.simulated(Along::SlideRoll).filter_map(place)).collect();
+        known.sort_by(|one, two| one.0.total_cmp(&two.0));
+        let gaps = known.windows(2).map(|sides| (sides[0], sides[1]));
+        let bends = gaps.filter(|(left, right)| {
+            (right.1 - left.1).abs() > BEND && right.0 - left.0 > 3.0 * SAME_S
+        });
+        bends
+            .map(|(left, right)| 0.5 * (left.0 + right.0))
+            .collect()
+    }
+
     /// The next curve; what it lacks is computed.
     pub(super) fn next_curve(&mut self) -> Vec<Effect> {
         let before = self.view.curve.along();
@@ -149,6 +182,7 @@ impl App {
         if self.view.curve.along() == before {
             return Vec::new();
         }
+        self.lives.swept.clear();
         self.begin_sweep()
     }
 }

@@ -30,15 +30,17 @@ impl App {
                 self.replay.settled = Some(new);
                 let replays = self.replay.auto == AutoReplay::On;
                 let runs = self.run.pace == RunPace::Running;
+                // On the first mesh already: it is the one that sweeps are made on.
+                let mut effects = match self.lives.sweep {
+                    None => self.begin_sweep(),
+                    Some(_) => Vec::new(),
+                };
                 if !is_last {
                     // The run goes on to a finer mesh meanwhile.
                     if replays && runs {
                         self.replay_settled();
                     }
-                    return Vec::new();
-                }
-                let mut effects = self.begin_sweep();
-                if replays && runs {
+                } else if replays && runs {
                     effects.extend(self.begin_replay());
                 }
                 effects
@@ -114,6 +116,7 @@ impl App {
         self.replay.auto = AutoReplay::On;
         // Whether one goes on is known one drawing later only: what it finds would be of the old knobs.
         self.lives.sweep = None;
+        self.lives.swept.clear();
         effects.push(Effect::EndSweep);
         effects
     }

@@ -105,6 +105,8 @@ pub(crate) struct LivesState {
     pub(crate) sweep: Option<(usize, usize)>,
     /// What it goes along.
     pub(crate) sweeping: Along,
+    /// Values that sweeps were asked for since a knob was turned.
+    pub(super) swept: Vec<f64>,
 }
 
 /// A passage that repeats, and the material point.
@@ -372,6 +374,7 @@ impl LivesState {
             film: SettledMean::default(),
             sweep: None,
             sweeping: Along::default(),
+            swept: Vec::new(),
         }
     }
 }
