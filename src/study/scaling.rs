@@ -41,6 +41,8 @@ pub struct ScalingRow {
     pub newton: f64,
     /// Krylov iterations a step.
     pub krylov: f64,
+    /// Two-dimensional transforms a step.
+    pub transforms: f64,
     /// Steps that did not converge.
     pub failed: u32,
     /// Memory by the plan's account, bytes.
@@ -115,8 +117,8 @@ fn cases(extent: Extent) -> Vec<ScalingCase> {
     let mut cases = Vec::new();
     let sizes: &[(usize, usize)] = match extent {
         Extent::Quick => &[(65, 32), (129, 32)],
-        Extent::Usual => &[(65, 256), (129, 256), (257, 96)],
-        Extent::Full => &[(65, 256), (129, 256), (257, 96), (LARGEST, 24)],
+        Extent::Usual => &[(65, 256), (129, 256), (257, 256)],
+        Extent::Full => &[(65, 256), (129, 256), (257, 256), (LARGEST, 24)],
     };
     let mut push = |name, nodes, threads, steps, keys| {
         cases.push(ScalingCase {
@@ -188,10 +190,11 @@ fn measure(case: &ScalingCase) -> Result<ScalingRow, String> {
         transforms_s: if case.name == DRY {
             None
         } else {
-            Some(transforms_s(case, bare.newton, bare.krylov)?)
+            Some(transforms_s(case, &bare)?)
         },
         newton: bare.newton,
         krylov: bare.krylov,
+        transforms: bare.transforms,
         failed: bare.failed,
         memory_bytes: bare.memory_bytes,
         split,
@@ -206,6 +209,8 @@ struct Timings {
     frame_s: f64,
     newton: f64,
     krylov: f64,
+    /// Two-dimensional transforms a step.
+    transforms: f64,
     failed: u32,
     memory_bytes: u64,
 }
@@ -250,6 +255,7 @@ fn run(case: &ScalingCase, more: &[&str]) -> Result<Timings, String> {
         frame_s,
         newton: per_step(sim.stats().newton_iterations - start.newton_iterations),
         krylov: per_step(sim.stats().linear_iterations - start.linear_iterations),
+        transforms: per_step(sim.stats().ffts - start.ffts),
         failed,
         memory_bytes,
     })
@@ -291,9 +297,10 @@ fn filter_s<T: FftNum>(
     Ok(pool.install(|| best(|| filter.apply(&input, &mut out))))
 }
 
-/// What the transforms of a mean step take on their own: a padded pair in double precision for each Newton iteration, a
-/// padded and a pinned one in single precision for each Krylov iteration.
-fn transforms_s(case: &ScalingCase, newton: f64, krylov: f64) -> Result<f64, String> {
+/// What the transforms of a mean step take on their own, as many as were counted: a padded pair in double precision for each
+/// evaluation (one before the first Newton iteration), a padded one in single precision for each Krylov iteration; all others
+/// are pinned ones of the preconditioner, in single precision, one forth and one back for each of its bins.
+fn transforms_s(case: &ScalingCase, of: &Timings) -> Result<f64, String> {
     let symmetry = if case.keys == GENERAL {
         Symmetry::General
     } else {
@@ -301,13 +308,19 @@ fn transforms_s(case: &ScalingCase, newton: f64, krylov: f64) -> Result<f64, Str
     };
     let pair = |padding| filter_s::<f32>(case.nodes, symmetry, padding, case.threads);
     let double = filter_s::<f64>(case.nodes, symmetry, Padding::Doubled, case.threads)?;
-    Ok(newton * double + krylov * (pair(Padding::Doubled)? + pair(Padding::Pinned)?))
+    let evaluations = of.newton + 1.0;
+    let pinned = (0.5 * of.transforms - evaluations - of.krylov).max(0.0);
+    Ok(
+        evaluations * double
+            + of.krylov * pair(Padding::Doubled)?
+            + pinned * pair(Padding::Pinned)?,
+    )
 }
 
 /// The steps, then what each stage takes in pairs.
 pub fn scaling_report(rows: &[ScalingRow]) -> Report {
     type Column<T> = (&'static str, fn(&T) -> String);
-    let steps: [Column<ScalingRow>; 12] = [
+    let steps: [Column<ScalingRow>; 13] = [
         ("grid", |row| format!("{}²", row.nodes)),
         ("case", |row| row.case.clone()),
         ("threads", |row| row.threads.to_string()),
@@ -320,6 +333,7 @@ pub fn scaling_report(rows: &[ScalingRow]) -> Report {
         ("steps/s", |row| format!("{:.1}", 1.0 / row.step_s)),
         ("Newton", |row| format!("{:.1}", row.newton)),
         ("Krylov", |row| format!("{:.1}", row.krylov)),
+        ("transforms", |row| format!("{:.0}", row.transforms)),
         ("MB", |row| format!("{:.0}", row.memory_bytes as f64 * 1e-6)),
         ("not converged", |row| row.failed.to_string()),
     ];

@@ -107,6 +107,11 @@ impl Sizes {
         all.extend([2.0, 0.5].map(|step| Resolution { step, ..base }));
         all.extend([1e-2, 1e-4].map(|tolerance| Resolution { tolerance, ..base }));
         all.extend([16, 64].map(|depths| Resolution { depths, ..base }));
+        // From the second mesh on there is one to climb from.
+        all.extend(self.high.iter().skip(1).map(|&nodes| Resolution {
+            climbs: true,
+            ..at(nodes, Order::High)
+        }));
         all.extend(self.high.iter().map(|&nodes| at(nodes, Order::High)));
         all
     }

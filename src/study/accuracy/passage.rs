@@ -2,18 +2,21 @@
 //!
 //! *Rough film*: the demonstration at 5 m/s with transverse waves of 0.35 mm (0.74 a) on the faster body, S = 1; each
 //! series is measured against its own finest case. *Default scene*: whole frames (solution, stress, counting, life and the
-//! frame that a screen or a recording is given) against the finest of the runs. Their rate is that of the passage; the
+//! frame that a screen or a recording is given) against the finest of the runs, on one mesh and up a ladder of meshes. Their rate is that of the passage; the
 //! start-up before it is in the seconds alone.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::super::table::MarkdownTable;
 use super::super::{StudyError, planned, scene_with};
 use super::series::{Against, Measured, Part, Series, Varied};
 use super::{LEVELS, Sizes};
-use asperity_engine::scene::{Order, presets};
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{Order, Scene, presets};
 use asperity_engine::sim::{Frame, Simulation, Stage, Summary};
 use asperity_picture::chart::{Curve, Mark};
+use asperity_session::run::{End, Ending, Request, Session};
 
 /// The name of the part that runs the default scene.
 pub const DEFAULT_PART: &str = "default scene";
@@ -40,6 +43,8 @@ pub struct Resolution {
     pub tolerance: f64,
     /// Depths.
     pub depths: usize,
+    /// Whether the run climbs to its mesh from coarser ones.
+    pub climbs: bool,
 }
 
 impl Resolution {
@@ -50,6 +55,7 @@ impl Resolution {
         step: 1.0,
         tolerance: 1e-3,
         depths: 32,
+        climbs: false,
     };
 
     /// As the scene key has it.
@@ -68,6 +74,7 @@ impl Resolution {
             format!("time.step_nodes={}", self.step),
             format!("numerics.tolerance={:e}", self.tolerance),
             format!("stress.depths={}", self.depths),
+            format!("numerics.ladder={}", self.climbs),
         ]
     }
 
@@ -81,6 +88,7 @@ impl Resolution {
     /// Whether nothing is coarser than in `other`.
     fn is_as_fine_as(self, other: Self) -> bool {
         self.order == other.order
+            && self.climbs == other.climbs
             && self.nodes >= other.nodes
             && self.step <= other.step
             && self.tolerance <= other.tolerance
@@ -113,12 +121,37 @@ struct Finished {
 /// A column: its name and what a run has in it.
 type Column<'a> = (&'static str, Box<dyn Fn(&WholeRun) -> String + 'a>);
 
+/// A run as users make it: on each of its meshes, the time of all of them.
+fn climb(scene: Scene, plan: Plan, threads: usize) -> Result<Finished, String> {
+    let request = Request {
+        name: presets::DEFAULT.to_owned(),
+        scene: Arc::new(scene),
+        plan,
+        threads,
+        watchers: Vec::new(),
+        ending: Ending::Passages,
+    };
+    let session = Session::start(request).map_err(|error| error.to_string())?;
+    let outcome = session.join().map_err(|error| error.to_string())?;
+    match (outcome.end, outcome.summary) {
+        (End::Done, Some(summary)) => Ok(Finished {
+            frames_per_s: outcome.steps_per_s.unwrap_or(f64::NAN),
+            seconds: outcome.wall_s,
+            summary,
+        }),
+        (end, _) => Err(format!("{end:?}")),
+    }
+}
+
 fn run(setting: Resolution, more: &[&str], threads: usize) -> Result<Finished, String> {
     let mut sets = setting.keys();
     sets.push("numerics.error_estimate=none".to_owned());
     sets.push("record=none".to_owned());
     sets.extend(more.iter().map(|&key| key.to_owned()));
     let (scene, plan) = planned(scene_with(presets::DEFAULT, &sets)?)?;
+    if setting.climbs {
+        return climb(scene, plan, threads);
+    }
     let begun = Instant::now();
     let mut sim = Simulation::new(&scene, plan, threads).map_err(|error| error.to_string())?;
     while sim.stage() != Stage::Passage {
@@ -262,6 +295,7 @@ pub(super) fn whole_text(runs: &[WholeRun], passages: f64) -> String {
             Box::new(|run| format!("{:e}", run.setting.tolerance)),
         ),
         ("depths", Box::new(|run| run.setting.depths.to_string())),
+        ("ladder", Box::new(|run| run.setting.climbs.to_string())),
     ];
     columns.extend(compared);
     columns.push((
@@ -291,7 +325,10 @@ pub(super) fn whole_text(runs: &[WholeRun], passages: f64) -> String {
 
 /// Error in life against time, a curve for each mesh and order.
 pub(super) fn life_curves(runs: &[WholeRun]) -> Vec<Curve> {
-    let kind = |run: &WholeRun| format!("{}², {}", run.setting.nodes, run.setting.order_name());
+    let kind = |run: &WholeRun| match run.setting.climbs {
+        true => "up a ladder of meshes".to_owned(),
+        false => format!("{}², {}", run.setting.nodes, run.setting.order_name()),
+    };
     let mut kinds: Vec<String> = runs.iter().map(kind).collect();
     kinds.dedup();
     let curve = |name: String| {
