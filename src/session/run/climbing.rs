@@ -115,6 +115,7 @@ impl Driver {
         ground.count_from(stats)?;
         self.climb.nodes = ladder.meshes()[0].plan.domain.nodes;
         (self.climb.launch, self.climb.below) = (None, None);
+        self.climb.widest = 0.0;
         self.climb.rungs.clear();
         self.publish_rungs();
         for command in std::mem::take(&mut self.pending) {
@@ -129,7 +130,7 @@ impl Driver {
         mesh: &Mesh,
         stats: Stats,
     ) -> Result<Simulation, SimError> {
-        self.climb.nodes = mesh.plan.domain.nodes;
+        (self.climb.nodes, self.climb.widest) = (mesh.plan.domain.nodes, 0.0);
         if self.ending == Ending::Passages {
             self.restart_script(script_of(&mesh.scene, 0));
         }
@@ -162,8 +163,9 @@ impl Driver {
         }
     }
 
-    /// Gives a life the band that the mesh below says.
-    pub(super) fn widen(&self, life: &mut LifeEstimate) {
+    /// Gives a life the band that the mesh below says: of a settled one the widest so far, as a mean that moves within its
+    /// period comes near the other mesh's now and then, and is no surer for it.
+    pub(super) fn widen(&mut self, life: &mut LifeEstimate) {
         let is_asked = self.context.scene.numerics.error_estimate == ErrorSource::Companion;
         let below = self.climb.below.as_ref().filter(|_| is_asked);
         let ladder = self.ladder.as_ref();
@@ -171,6 +173,13 @@ impl Driver {
         if let (Some(below), Some((mesh, _))) = (below.and_then(|one| one.life_relative), mesh) {
             let error = life_error(life.life_relative, below, &mesh.scene, &mesh.plan);
             if error.is_finite() {
+                let error = match life.settled {
+                    true => error.max(self.climb.widest),
+                    false => error,
+                };
+                if life.settled {
+                    self.climb.widest = error;
+                }
                 life.life_relative_low = life.life_relative * (-error).exp();
                 life.life_relative_high = life.life_relative * error.exp();
             }

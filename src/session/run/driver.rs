@@ -114,6 +114,8 @@ pub(super) struct Driver {
     gather: Option<Gather>,
     /// Whether it has one on this mesh.
     has_settled: bool,
+    /// Passages of this mesh that had been made when the wait for one began.
+    waits_since: f64,
     /// Of live runs on a finer mesh: the first one, where it was left.
     pub(super) ground: Option<Simulation>,
     /// What waits for the first mesh.
@@ -163,6 +165,7 @@ impl Driver {
             pool: FramePool::new(FRAMES, &Frame::default()),
             gather: (request.ending != Ending::Passages).then(Gather::default),
             has_settled: false,
+            waits_since: 0.0,
             ground: None,
             pending: Vec::new(),
             shown_before: Shown::default(),

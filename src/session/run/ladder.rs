@@ -48,6 +48,9 @@ pub struct Climb {
     pub rungs: Vec<Rung>,
     /// What the one below came to; `None`: there is none, or it stalled.
     pub below: Option<Summary>,
+    /// The widest error of a settled life, in ln L, that the mesh below has said on this one.
+    #[serde(default)]
+    pub widest: f64,
     /// Where the passage on this one began, for the next.
     pub launch: Option<State>,
 }

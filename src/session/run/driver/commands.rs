@@ -13,10 +13,10 @@ use asperity_engine::sim::{Knob, Simulation, Stage};
 
 impl Driver {
     /// A knob was turned: what had settled is past.
-    pub(super) fn forget_settled(&mut self) {
+    pub(super) fn forget_settled(&mut self, sim: &Simulation) {
         if let Some(gather) = &mut self.gather {
             *gather = Gather::default();
-            self.has_settled = false;
+            (self.has_settled, self.waits_since) = (false, sim.passages());
             self.link.lock().settled = None;
         }
     }
@@ -118,9 +118,9 @@ impl Driver {
             Ok(()) => {
                 self.log(sim, Command::Set(knob, value), by);
                 self.n_turned_by_hand += usize::from(by == SetBy::Hand);
-                self.forget_settled();
+                self.forget_settled(sim);
                 // What is gone on from is what the knob makes of it.
-                self.climb.launch = None;
+                (self.climb.launch, self.climb.widest) = (None, 0.0);
                 let kind = RunEventKind::Set {
                     key: knob.key().to_owned(),
                     value,

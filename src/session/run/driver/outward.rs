@@ -39,7 +39,7 @@ impl Driver {
 
     /// Another mesh: what has settled on the last one is shown until this one has.
     pub(in crate::run) fn begin_gathering(&mut self) {
-        self.has_settled = false;
+        (self.has_settled, self.waits_since) = (false, 0.0);
         if let Some(gather) = &mut self.gather {
             *gather = Gather::default();
         }
@@ -100,10 +100,22 @@ impl Driver {
             self.outputs.frame(&frame);
         }
         self.gather_frame(sim, &frame, on_top);
-        // The start-up of a finer mesh shows nothing that the coarser one has not shown.
-        if frame.stage == Stage::Passage || self.climb.rungs.is_empty() {
+        if self.shows(&frame) {
             self.link.latest.put(frame);
         }
+    }
+
+    /// Whether a frame is for the screen: the start-up of a finer mesh shows nothing that the coarser one has not shown, and
+    /// until its life has settled the one that has is not taken away; but not for ever.
+    fn shows(&self, frame: &Frame) -> bool {
+        if self.climb.rungs.is_empty() {
+            return true;
+        }
+        let has_life = self.context.scene.life.is_some();
+        let settled = frame.metrics.life.is_some_and(|life| life.settled);
+        let has_settled = self.has_settled || settled || !has_life;
+        let is_live = self.gather.is_some();
+        frame.stage == Stage::Passage && (has_settled || !is_live || frame.passages >= PATIENCE)
     }
 
     /// Looks for a period of a live run; on a coarser mesh for one with a settled life, or the time that it has.
@@ -127,7 +139,7 @@ impl Driver {
             self.link.lock().settled = Some(Arc::new(settled));
             self.has_settled = true;
         }
-        self.has_settled |= !on_top && frame.passages >= PATIENCE;
+        self.has_settled |= !on_top && frame.passages - self.waits_since >= PATIENCE;
     }
 
     /// Tells the outputs; what happens on a coarser mesh happens again on the last.
