@@ -117,7 +117,9 @@ impl LastPeriod {
             let slot = self.slot(self.taken);
             self.steps[slot] = step;
             let room = &mut self.pressures[slot * self.len..(slot + 1) * self.len];
-            room.iter_mut().zip(stored).for_each(|(to, p)| *to = p);
+            for (to, p) in room.iter_mut().zip(stored) {
+                *to = p;
+            }
         }
         self.taken += 1;
     }
@@ -153,7 +155,9 @@ impl LastPeriod {
                 *to += weight * f64::from(p);
             }
         }
-        guess.iter_mut().for_each(|p| *p = p.max(0.0));
+        for p in guess.iter_mut() {
+            *p = p.max(0.0);
+        }
         Some(h0)
     }
 }
