@@ -173,11 +173,9 @@ impl Driver {
         if let (Some(below), Some((mesh, _))) = (below.and_then(|one| one.life_relative), mesh) {
             let error = life_error(life.life_relative, below, &mesh.scene, &mesh.plan);
             if error.is_finite() {
-                let error = match life.settled {
-                    true => error.max(self.climb.widest),
-                    false => error,
-                };
+                let mut error = error;
                 if life.settled {
+                    error = error.max(self.climb.widest);
                     self.climb.widest = error;
                 }
                 life.life_relative_low = life.life_relative * (-error).exp();

@@ -325,9 +325,11 @@ pub(super) fn whole_text(runs: &[WholeRun], passages: f64) -> String {
 
 /// Error in life against time, a curve for each mesh and order.
 pub(super) fn life_curves(runs: &[WholeRun]) -> Vec<Curve> {
-    let kind = |run: &WholeRun| match run.setting.climbs {
-        true => "up a ladder of meshes".to_owned(),
-        false => format!("{}², {}", run.setting.nodes, run.setting.order_name()),
+    let kind = |run: &WholeRun| {
+        if run.setting.climbs {
+            return "up a ladder of meshes".to_owned();
+        }
+        format!("{}², {}", run.setting.nodes, run.setting.order_name())
     };
     let mut kinds: Vec<String> = runs.iter().map(kind).collect();
     kinds.dedup();
