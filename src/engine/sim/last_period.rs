@@ -20,6 +20,8 @@ use crate::saved::saved;
 /// Pressures, and steps, that are kept at most; longer periods give no guess.
 const MOST: usize = 8 << 20;
 const MOST_STEPS: usize = 1024;
+/// Steps that no run makes.
+const MOST_TAKEN: u64 = 1 << 52;
 /// Steps that the interpolation between them takes; six were tried and save half a percent.
 const POINTS: usize = 4;
 /// Those of them that lie before its place.
@@ -52,6 +54,8 @@ saved! {
         free: kept, taken, steps, pressures, is_better;
     }
     holds |own, saved| saved.kept <= most(own.len)
+        && (saved.kept > 0 || saved.taken == 0)
+        && saved.taken <= MOST_TAKEN
         && saved.steps.len() as u64 == saved.taken.min(saved.kept as u64)
         && saved.pressures.len() == saved.steps.len() * own.len
 }
@@ -175,6 +179,7 @@ fn back(period: f64, step: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::saved::Saved as _;
 
     /// A crest that passes a node every `period`.
     fn pressure(distance: f64, period: f64) -> f64 {
@@ -209,6 +214,24 @@ mod tests {
             }
             assert!(guessed > 90, "{guessed}");
         }
+    }
+
+    #[test]
+    fn a_state_that_no_run_leaves_is_refused() {
+        let own = LastPeriod::new(1);
+        let no_room = LastPeriod {
+            taken: 5,
+            ..own.clone()
+        };
+        let endless = LastPeriod {
+            kept: 1,
+            taken: u64::MAX,
+            steps: vec![PastStep::default()],
+            pressures: vec![0.0],
+            ..own.clone()
+        };
+        assert!(own.check(&no_room).is_err() && own.check(&endless).is_err());
+        assert!(own.check(&own).is_ok());
     }
 
     #[test]
