@@ -3,6 +3,7 @@
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;
+mod common_life;
 mod outputs;
 mod sweep;
 mod sweep_shared;

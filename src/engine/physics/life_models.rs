@@ -109,15 +109,20 @@ impl LifeEquation {
     pub fn growth(self, law: LifeLaw, sides: f64, swept: bool) -> f64 {
         let depth = 1.0;
         let lengths = if swept { sides } else { sides + depth };
+        self.over_stress(law)
+            + match self {
+                Self::Zaretsky => lengths,
+                Self::LundbergPalmgren { depth_exponent, .. } => depth - depth_exponent,
+                Self::IoannidesHarris { depth_exponent, .. } => lengths - depth_exponent,
+                Self::DangVan { .. } | Self::Findley { .. } => 0.0,
+            }
+    }
+
+    /// Exponent of J over stress alone: the rest of [`LifeEquation::growth`] is over lengths.
+    pub fn over_stress(self, law: LifeLaw) -> f64 {
         match self {
-            Self::Zaretsky => law.integral_exponent() + lengths,
-            Self::LundbergPalmgren { depth_exponent, .. } => {
-                law.stress_exponent + depth - depth_exponent
-            }
-            Self::IoannidesHarris { depth_exponent, .. } => {
-                law.stress_exponent + lengths - depth_exponent
-            }
-            Self::DangVan { .. } | Self::Findley { .. } => law.integral_exponent(),
+            Self::Zaretsky | Self::DangVan { .. } | Self::Findley { .. } => law.integral_exponent(),
+            Self::LundbergPalmgren { .. } | Self::IoannidesHarris { .. } => law.stress_exponent,
         }
     }
 

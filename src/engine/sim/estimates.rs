@@ -79,6 +79,14 @@ pub struct LifeEstimate {
     pub detail: LifeDetail,
 }
 
+impl LifeEstimate {
+    /// Life relative to the smooth contact at the load and speed that the scene began with: it compares lives at
+    /// different loads, as `life_relative`, which is relative to that at the load of now, does not.
+    pub fn life_common(&self) -> f64 {
+        self.life_relative * self.load_factor
+    }
+}
+
 /// What stands beside a life.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct LifeDetail {

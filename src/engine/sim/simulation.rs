@@ -227,6 +227,12 @@ impl Simulation {
         summary::summary(self.view(), &self.stats)
     }
 
+    /// Life of the smooth contact as [`Summary::life_smooth`] has it; `None`: the start-up has not come to it yet, or the scene
+    /// has no life.
+    pub fn life_smooth(&self) -> Option<f64> {
+        summary::life_smooth(self.view())
+    }
+
     /// Shows another material point; nothing that is computed changes.
     pub fn show_point(&mut self, follow: Follow) {
         let Some(counting) = &mut self.state.counting else {

@@ -103,6 +103,14 @@ pub struct Summary {
     /// `life_relative * load_factor` compares lives at different loads.
     #[serde(default)]
     pub load_factor: Option<f64>,
+    /// Life relative to the smooth contact of the base: of what the run began with, of the scene that a sweep varies.
+    /// It compares lives at different loads, speeds, radii and oils, and is `life_relative * load_factor` in one run.
+    #[serde(default)]
+    pub life_common: Option<f64>,
+    /// Life of the smooth, frictionless contact at the load and speed of now but for the constant of the scene's model:
+    /// its volume integral in GPa and mm, to the power of −1/e. The ratio of two is that of two smooth contacts' lives.
+    #[serde(default)]
+    pub life_smooth: Option<f64>,
     /// Relative life.
     pub life_relative: Option<f64>,
     /// Lower end of its band.

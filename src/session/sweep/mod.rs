@@ -14,6 +14,7 @@ mod background;
 mod case;
 mod chain;
 mod cold;
+mod common;
 mod error;
 mod folder;
 mod maps;

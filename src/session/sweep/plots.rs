@@ -122,14 +122,34 @@ struct Plot {
     curves: &'static [PlottedCurve],
 }
 
+/// What lives are relative to where no load varies, nor anything else that the smooth contact depends on.
+const OWN_LIFE: &str = "relative life";
+/// And where something does: their own smooth contacts are other ones, so lives are brought to that of the base scene.
+const COMMON_LIFE: &str = "life over that of the base scene's smooth contact";
+
+/// A column as pictures show it, and whether lives in it were brought to the smooth contact of the base scene.
+fn drawn(sweep: &Sweep, rows: &Rows, column: &str) -> (Vec<f64>, bool) {
+    let mut values = rows.column(sweep, column).unwrap_or_default();
+    let factors = rows.column(sweep, "load_factor").unwrap_or_default();
+    let is_common = column.starts_with("life_")
+        && sweep.varies_the_smooth_contact()
+        && factors.iter().any(|factor| factor.is_finite());
+    if is_common {
+        for (life, factor) in values.iter_mut().zip(factors) {
+            *life *= factor;
+        }
+    }
+    (values, is_common)
+}
+
 /// Pictures along the last axis, the first four of any sweep, all of a path.
 #[rustfmt::skip]
 const PLOTS: [Plot; 7] = [
-    Plot { name: "life", label: "relative life", scale: Scale::Log, curves: &[computed("", "life_relative")] },
+    Plot { name: "life", label: OWN_LIFE, scale: Scale::Log, curves: &[computed("", "life_relative")] },
     Plot { name: "traction", label: "friction coefficient", scale: Scale::Linear, curves: &[computed("", "friction_coefficient")] },
     Plot { name: "pressure", label: "pressure, Pa", scale: Scale::Linear, curves: &[computed("maximum", "p_max_greatest_pa"), computed("mean of the steps' maxima", "p_max_pa"), formula("Hertz", "p_hertz_pa")] },
     Plot { name: "film", label: "film, m", scale: Scale::Log, curves: &[computed("centre", "h_central_m"), computed("mean of the steps' minima", "h_min_m"), formula("smooth, by regression", "h_regression_m")] },
-    Plot { name: "mechanisms", label: "factor of life", scale: Scale::Log, curves: &[computed("cycles", "cycle_factor"), computed("peaks", "peak_factor"), computed("traction", "traction_factor")] },
+    Plot { name: "mechanisms", label: "factor of life", scale: Scale::Log, curves: &[computed("cycles", "cycle_factor"), computed("peaks", "peak_factor"), computed("traction", "traction_factor"), computed("load", "load_factor")] },
     Plot { name: "contacts", label: "contacts a loading cycle n", scale: Scale::Log, curves: &[computed("body 1", "n_body_1"), computed("body 2", "n_body_2")] },
     Plot { name: "lambda", label: "lambda", scale: Scale::Linear, curves: &[computed("", "lambda_ratio")] },
 ];
@@ -138,7 +158,7 @@ const PLOTS: [Plot; 7] = [
 #[rustfmt::skip]
 const AGAINST_LAMBDA: [(Plot, Corner); 2] = [
     (Plot { name: "stribeck", label: "friction coefficient", scale: Scale::Linear, curves: &[computed("", "friction_coefficient")] }, Corner::UpperRight),
-    (Plot { name: "life_against_lambda", label: "relative life", scale: Scale::Log, curves: &[computed("by damage", "life_damage"), computed("the paper's count", "life_global")] }, Corner::UpperLeft),
+    (Plot { name: "life_against_lambda", label: OWN_LIFE, scale: Scale::Log, curves: &[computed("by damage", "life_damage"), computed("the paper's count", "life_global")] }, Corner::UpperLeft),
 ];
 
 fn figures(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
@@ -190,9 +210,13 @@ fn lines(sweep: &Sweep) -> Vec<Line> {
 
 fn figure(sweep: &Sweep, rows: &Rows, along: &CurveAxis, lines: &[Line], plot: &Plot) -> Figure {
     let mut curves = Vec::new();
+    let mut label = plot.label;
     let xs = rows.column(sweep, &along.column).unwrap_or_default();
     for curve in plot.curves {
-        let ys = rows.column(sweep, curve.column).unwrap_or_default();
+        let (ys, is_common) = drawn(sweep, rows, curve.column);
+        if is_common {
+            label = COMMON_LIFE;
+        }
         if !ys.iter().any(|y| y.is_finite()) {
             continue;
         }
@@ -209,7 +233,7 @@ fn figure(sweep: &Sweep, rows: &Rows, along: &CurveAxis, lines: &[Line], plot: &
     Figure {
         title: title(sweep),
         x: (along.label.clone(), along.scale),
-        y: (plot.label.to_owned(), plot.scale),
+        y: (label.to_owned(), plot.scale),
         curves,
         levels: Vec::new(),
         legend: Corner::UpperRight,
@@ -263,7 +287,7 @@ fn life_map(sweep: &Sweep, rows: &Rows) -> Option<HeatMap> {
     if sweep.combine != Combine::Grid || xs.len() < 2 || ys.len() < 2 {
         return None;
     }
-    let lives = rows.column(sweep, "life_relative")?;
+    let (lives, is_common) = drawn(sweep, rows, "life_relative");
     let rising = |list: &[f64]| list.windows(2).all(|pair| pair[1] > pair[0]);
     if !rising(&xs) || !rising(&ys) {
         return None;
@@ -277,6 +301,9 @@ fn life_map(sweep: &Sweep, rows: &Rows) -> Option<HeatMap> {
             .collect(),
         x: (x.label(), xs),
         y: (y.label(), ys),
-        value: ("relative life".to_owned(), Scale::Log),
+        value: (
+            if is_common { COMMON_LIFE } else { OWN_LIFE }.to_owned(),
+            Scale::Log,
+        ),
     })
 }

@@ -49,7 +49,7 @@ const COLUMNS: [&[(&str, InRecord)]; 7] = [
     optional! {
         n_body_1 n_body_2 n_counted_body_1 n_counted_body_2
         i_ref i_mean cycle_factor stress_factor peak_factor traction_factor load_factor
-        life_relative life_relative_low life_relative_high life_body life_body_1 life_body_2
+        life_common life_relative life_relative_low life_relative_high life_body life_body_1 life_body_2
         life_system life_global life_damage life_models_low life_models_high
         life_cycles survival_ratio
         sigma_eff_max_pa sigma_eff_max_depth_m sigma_eff_max_x_m
@@ -98,7 +98,8 @@ fn number(record: &CaseRecord, name: &str) -> Option<f64> {
 /// A sweep's rows, all there.
 #[derive(Debug, Clone)]
 pub struct Rows {
-    /// One record a case, in order.
+    /// One record a case, in order; `load_factor` and `life_common` of their summaries are relative to the base scene's smooth
+    /// contact.
     pub records: Vec<CaseRecord>,
 }
 
@@ -132,9 +133,14 @@ impl Rows {
                 list: missing_chains(sweep, &records),
             });
         }
-        Ok(Self {
-            records: records.into_iter().flatten().collect(),
-        })
+        let mut records: Vec<CaseRecord> = records.into_iter().flatten().collect();
+        let base = sweep.smooth_life(&records);
+        for CaseRecord { summary, .. } in &mut records {
+            summary.load_factor = summary.life_smooth.zip(base).map(|(own, base)| own / base);
+            let lives = summary.life_relative.zip(summary.load_factor);
+            summary.life_common = lives.map(|(life, load)| life * load);
+        }
+        Ok(Self { records })
     }
 
     /// The column of that name, an axis or a number of the records; empty cells are NaN.

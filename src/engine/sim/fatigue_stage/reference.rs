@@ -3,12 +3,14 @@
 //! ```text
 //! I_ref(now)  = I_ref(where it was computed) r^g            r: ratio of Hertz half-widths, g: LifeEquation::growth
 //! load_factor = [I_ref(base)/I_ref(now)]^{1/e}              both in the scene's units
+//! N_smooth    = I_ref(now)^{-1/e}                            in GPa and mm: of any scene's
 //! ```
 //! The start-up computes it for the load and speed that the scene begins with, the base, and `smooth.rs` for
 //! others. On the way there it grows as Hertz contacts do.
 
 use super::LifeStage;
 use crate::physics::cycles::BodyId;
+use crate::physics::hertz::Hertz;
 use crate::physics::life_models::calibrated_reference;
 use crate::sim::smooth::LoadAndSpeed;
 use crate::sim::stress_stage::StressStage;
@@ -129,6 +131,22 @@ impl LifeStage {
     ) -> f64 {
         let ratio = size / self.reference_size;
         variant.ln_reference(body, integral) + self.growth(variant, integral) * ratio.ln()
+    }
+
+    /// Life of the smooth contact of `size` times the scene's, whose Hertz contact is `hertz`, but for the constant of the
+    /// scene's model: I in GPa and mm, to the power of −1/e. `None`: no stress of it is above the fatigue limit, or there is
+    /// no reference yet.
+    pub(in crate::sim) fn smooth_life(&self, hertz: &Hertz, size: f64) -> Option<f64> {
+        let Self { law, sides, .. } = *self;
+        let scene = &self.variants[0];
+        let over_stress = scene.model.over_stress(law);
+        let all = scene.model.growth(law, sides, false) + scene.model.width(sides);
+        let ln = self.ln_reference(scene, BodyId::One, LifeIntegral::Snapshot, size)
+            + scene.model.width(sides) * size.ln()
+            + over_stress * (hertz.p_max_pa * 1e-9).ln()
+            + (all - over_stress) * (hertz.a_m * 1e3).ln();
+        let life = law.integral_factor(0.0, ln);
+        life.is_finite().then_some(life)
     }
 
     pub(super) fn growth(&self, variant: &Variant, integral: LifeIntegral) -> f64 {

@@ -344,6 +344,7 @@ pub const CATALOGUE: &[Quantity] = {
         Q::new(["yielded_body_2_m3", "body 2 has yielded"], Volume, "what body 2 has yielded since the roughness came up", M(|m| m.yielded_m3.map(|both| both[1]).into())),
         Q::new(["traction_max_pa", "τ max"], Pressure, "greatest shear stress on the surfaces", M(|m| m.traction_max_pa.into())).over(&[(Mean, "traction_max_pa"), (Greatest, "traction_max_greatest_pa")]).by_itself(),
         Q::new(["load_centre_x_m", "x of the load"], Length, "where along x the load acts: its moment resists rolling", M(|m| m.load_centre_x_m.into())),
+        Q::new(["life_common", "life at the first load"], Plain, "life over that of the smooth, frictionless contact at S = 0 at the load and speed that the scene began with", L(|l| l.life_common().into())),
     ]
 };
 

@@ -24,6 +24,7 @@ pub(super) fn summary(sim: View, stats: &Stats) -> Summary {
         steps: sim.state.step,
         a_m: hertz.a_m * size,
         p_hertz_pa: hertz.p_max_pa * size,
+        life_smooth: life_smooth(sim),
         cautions: caution::list(m, &grounds(sim.plan, sim.state)),
         counters: *stats,
         map_body_1: sim.plan.decided.maps[0].clone(),
@@ -56,6 +57,7 @@ fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary 
         life_system life_global life_damage
     );
     Summary {
+        life_common: life.map(LifeEstimate::life_common),
         survival_ratio: stage.map(LifeStage::survival_ratio),
         life_model: life.and_then(|l| Some(l.detail.model?.name().to_owned())),
         life_count: stage.map(LifeStage::count_text),
@@ -73,6 +75,13 @@ fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary 
             .and_then(|l| Some(l.detail.cycles? * l.life_relative_high / l.life_relative)),
         ..numbers
     }
+}
+
+/// Life of the smooth contact at the load and speed of now, as [`Summary::life_smooth`] has it; `None`: not known yet.
+pub(super) fn life_smooth(sim: View) -> Option<f64> {
+    let size = sim.plan.size_now(&sim.state.drive);
+    let stage = sim.state.life.as_ref()?;
+    stage.smooth_life(&sim.plan.decided.hertz, size)
 }
 
 /// Where the pit of a body starts.
