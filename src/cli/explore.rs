@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use asperity_engine::observe::Overwrite;
+use asperity_engine::scene::presets;
 use asperity_explorer::tui::lessons::Lesson;
 use asperity_explorer::tui::{
     Health, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, TuiError, Wiring,
@@ -88,6 +89,10 @@ pub(crate) fn explore(
             "--hold is for asperity run: the explorer does not wait for viewers"
         )));
     }
+    let mut args = args.clone();
+    let opening = presets::opening(&args.scene.scene).map(str::to_owned);
+    args.scene.settings.splice(0..0, opening);
+    let args = &args;
     let prepared = scenes::prepare(args)?;
     let path = match &args.out {
         Some(path) => path.clone(),

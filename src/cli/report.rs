@@ -35,6 +35,12 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> St
         lines.0 = format!("{}\n\n", scene.title);
     }
     if let Some(summary) = &outcome.summary {
+        if let Some(told) = summary.headline() {
+            lines.add("life", told.life);
+            lines.add("because", told.because);
+            lines.add("trust", told.trust);
+            lines.0.push('\n');
+        }
         lines.add("run", run_line(outcome));
         if let Some(words) = steps_of_tolerance(scene, outcome) {
             lines.add("", words);

@@ -9,6 +9,7 @@ use asperity_study::evidence::{
 };
 use asperity_study::scaling::{scaling, scaling_report};
 use asperity_study::stability::{stability, stability_report};
+use asperity_study::story::{story, story_report};
 use asperity_study::{Extent, Report, StudyError, StudyProgress, machine};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -64,6 +65,7 @@ fn measured(args: &StudyArgs, progress: &mut StudyProgress) -> Result<Report, St
             extent, only, threads, progress,
         )?)),
         StudyKind::Scaling => Ok(scaling_report(&scaling(extent, only, progress)?)),
+        StudyKind::Story => Ok(story_report(&story(extent, only, threads, progress)?)),
         StudyKind::Evidence => {
             let result = evidence(extent, only, threads, progress)?;
             let agreement = agreement_plot(&result).map_err(StudyError::Plot)?;

@@ -10,7 +10,7 @@ use super::stream::Stream;
 use asperity_engine::math::number::sig;
 use asperity_engine::observe::RunContext;
 use asperity_engine::scene::ContactKind;
-use asperity_engine::sim::{Frame, Metrics, Summary};
+use asperity_engine::sim::{Cause, Frame, Metrics, Summary};
 
 /// What came out.
 pub(crate) fn result() -> EntityPath {
@@ -104,7 +104,9 @@ pub(crate) fn log_result(stream: &Stream, last: &Last) {
             "life_relative_high",
             life.map(|life| life.life_relative_high),
         )
-        .number("load_factor", life.map(|life| life.load_factor));
+        .number("load_factor", life.map(|life| life.load_factor))
+        .number("life_body", life.map(|life| f64::from(life.detail.body)))
+        .text("life_cause", life.map_or("", |life| life.cause().words()));
     stream.log_static(result(), &values.0);
 }
 
@@ -121,6 +123,9 @@ pub(crate) fn summary_values(s: &Summary) -> AnyValues {
         .number("life_relative_low", s.life_relative_low)
         .number("life_relative_high", s.life_relative_high)
         .number("load_factor", s.load_factor)
+        .number("life_common", s.life_common)
+        .number("life_body", s.life_body.map(f64::from))
+        .text("life_cause", s.life_cause.map_or("", Cause::words))
         .number("life_extrapolated", s.life_extrapolated)
         .0
 }

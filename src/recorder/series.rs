@@ -182,6 +182,7 @@ fn line(code: CautionCode) -> Option<usize> {
         | CautionCode::MapDoubtful
         | CautionCode::ShortDomain
         | CautionCode::CrestsNotFelt
+        | CautionCode::PhaseLocked
         | CautionCode::AboveSmooth
         | CautionCode::NoLife
         | CautionCode::StrengthUnknown

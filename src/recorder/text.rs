@@ -162,6 +162,7 @@ fn lecture(frame: &Frame, caption: &str) -> String {
         ]
         .map(|v| sig(v, 2));
         let _ = writeln!(text, "{HEADING} {value} ({low} to {high})\n");
+        let _ = writeln!(text, "{}\n", choices(life));
     } else {
         let _ = writeln!(
             text,
@@ -173,6 +174,17 @@ fn lecture(frame: &Frame, caption: &str) -> String {
         let _ = writeln!(text, "- {}", caution.text);
     }
     text
+}
+
+/// What takes the life of whom, and what other choices of count and model make of it.
+fn choices(life: &LifeEstimate) -> String {
+    let detail = &life.detail;
+    let [low, high] = [detail.spread_low, detail.spread_high].map(|life| sig(life, 2));
+    format!(
+        "{}; body {} governs; choices of count and model {low} to {high}",
+        life.cause().words(),
+        detail.body
+    )
 }
 
 /// Before the life in the lecture, and among the numbers.
@@ -228,15 +240,19 @@ fn push_life(text: &mut String, life: &LifeEstimate) {
         text,
         "{LIFE_NOW} {value}{settled}\n\n{low} to {high}; cycles {cycles} × peaks {peaks} × traction {traction}\n"
     );
+    let _ = writeln!(text, "{}\n", choices(life));
     if let (Some(global), Some(damage)) = (life.detail.life_global, life.detail.life_damage) {
         let [global, damage] = [global, damage].map(|life| sig(life, 3));
-        let _ = writeln!(text, "paper's count {global}; counted by damage {damage}\n");
-    }
-    if life.load_factor > 0.0 {
-        let factor = sig(life.load_factor, 3);
         let _ = writeln!(
             text,
-            "× load {factor}, against the scene's load and speed\n"
+            "by the count of Pu et al. (2016) {global}; counted by damage {damage}\n"
+        );
+    }
+    if life.load_factor > 0.0 {
+        let [factor, common] = [life.load_factor, life.life_common()].map(|value| sig(value, 3));
+        let _ = writeln!(
+            text,
+            "× load {factor}, against the scene's load and speed: {common}\n"
         );
     }
 }

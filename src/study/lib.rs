@@ -5,13 +5,18 @@ pub mod evidence;
 mod machine;
 pub mod scaling;
 pub mod stability;
+pub mod story;
 mod table;
 
 pub use machine::machine;
 pub use table::{MarkdownTable, figure};
 
+use std::sync::Arc;
+
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
+use asperity_engine::sim::Summary;
+use asperity_session::run::{End, Ending, Request, Session};
 use thiserror::Error;
 
 /// How much to measure.
@@ -84,4 +89,33 @@ fn scene_with(preset: &str, sets: &[String]) -> Result<Scene, String> {
 fn planned(scene: Scene) -> Result<(Scene, Plan), String> {
     let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
     Ok((scene, plan))
+}
+
+/// What a finished run tells.
+struct Finished {
+    summary: Summary,
+    frames_per_s: f64,
+    seconds: f64,
+}
+
+/// A run as users make it: on each of its meshes, the time of all of them.
+fn climb(scene: Arc<Scene>, plan: Plan, threads: usize) -> Result<Finished, String> {
+    let request = Request {
+        name: String::new(),
+        scene,
+        plan,
+        threads,
+        watchers: Vec::new(),
+        ending: Ending::Passages,
+    };
+    let session = Session::start(request).map_err(|error| error.to_string())?;
+    let outcome = session.join().map_err(|error| error.to_string())?;
+    match (outcome.end, outcome.summary) {
+        (End::Done, Some(summary)) => Ok(Finished {
+            frames_per_s: outcome.steps_per_s.unwrap_or(f64::NAN),
+            seconds: outcome.wall_s,
+            summary,
+        }),
+        (end, _) => Err(format!("{end:?}")),
+    }
 }

@@ -115,7 +115,7 @@ pub(crate) fn map(ending: &str, bytes: &[u8], place: &Place) -> Vec<String> {
 /// A saved state whose digest fits whatever it holds.
 pub(crate) fn sealed_state(body: &str) -> Vec<u8> {
     let digest = asperity_engine::files::fnv(body.as_bytes());
-    format!("asperity state 4 {digest:016x}\n{body}").into_bytes()
+    format!("asperity state 5 {digest:016x}\n{body}").into_bytes()
 }
 
 /// A case of a sweep with another value somewhere in it, its digest right.

@@ -4,7 +4,8 @@
 use super::sweep::{fill, sweep};
 use asperity_session::sweep::Rows;
 
-/// Presets, the key of their load, and its values; 65 nodes carry their waves.
+/// Presets, the key of their load in newtons, its values, and nodes that carry the waves. Another radius under one load is another
+/// pressure, which both know; at one pressure a calibration point knows no size, while the stressed volume does.
 const PRESETS: [(&str, &str, [f64; 3], u32); 5] = [
     (
         "demonstration_quick",
@@ -15,9 +16,9 @@ const PRESETS: [(&str, &str, [f64; 3], u32); 5] = [
     ("ball_bearing", "load.force_n", [1200.0, 2470.0, 5000.0], 65),
     ("twin_disc", "load.force_n", [700.0, 1410.0, 2800.0], 129),
     (
-        "micropitting_rig",
-        "load.hertz_pressure_pa",
-        [1.2e9, 1.5e9, 1.9e9],
+        "ball_bearing_worn",
+        "load.force_n",
+        [520.0, 1040.0, 2080.0],
         129,
     ),
     ("fzg_point_b", "load.force_n_per_m", [2e5, 4.22e5, 8e5], 257),

@@ -132,7 +132,7 @@ fn a_chain_goes_on_where_it_was_broken_off() {
     std::fs::remove_file(cases.join("0000003.json")).unwrap();
     std::fs::write(
         place.join("chains").join("0000000-0000002.state"),
-        "asperity state 4 0\n{}",
+        "asperity state 5 0\n{}",
     )
     .unwrap();
     assert_eq!(fill(&sweep, &place, None, 1).1, 4);
@@ -211,6 +211,9 @@ grid.nodes = 65
 body_1.surface.wavelength_x_m = 3e-4
 body_2.surface.wavelength_x_m = 3e-4
 body_2.surface.wavelength_y_m = inf
+body_1.surface.amplitude_m = 3e-7
+body_2.surface.amplitude_m = 3e-7
+body_1.surface.phase_deg = 0.0
 stress.depths = 16
 ";
 

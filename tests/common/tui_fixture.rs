@@ -341,6 +341,8 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
             life_relative_high: 1.25 * life_relative,
             settled: state.settled,
             detail: LifeDetail {
+                body: 1,
+                basis_factor: 1.0,
                 life_global: Some(life_relative),
                 life_damage: Some(0.9 * peak_factor * traction_factor),
                 ..LifeDetail::default()

@@ -8,7 +8,7 @@ use asperity_engine::plan::{MOLECULE_M, Plan, Valleys, Warning};
 use asperity_engine::scene::{Override, Scene};
 use asperity_engine::sim::{Knob, Simulation, Stage, Summary};
 
-const COMMON: [&str; 7] = [
+const COMMON: [&str; 10] = [
     "load.force_n=none",
     "load.hertz_pressure_pa=1e9",
     "grid.nodes=33",
@@ -16,6 +16,9 @@ const COMMON: [&str; 7] = [
     "numerics.error_estimate=none",
     "time.passages=1",
     "body_2.surface.wavelength_x_m=3e-4",
+    "body_1.surface.amplitude_m=3e-7",
+    "body_2.surface.amplitude_m=3e-7",
+    "body_1.surface.phase_deg=0",
 ];
 
 fn scene(speed_m_s: f64, more: &[&str]) -> Scene {

@@ -284,6 +284,7 @@ fn waves_on_either_body_and_both_signs_of_sliding_agree() {
             format!("body_{rough}.surface.amplitude_m=1.5e-7"),
             format!("body_{rough}.surface.wavelength_x_m=4e-4"),
             format!("body_{rough}.surface.wavelength_y_m=inf"),
+            format!("body_{rough}.surface.phase_deg=0"),
             format!("body_{smooth}.surface.kind=smooth"),
             "grid.nodes=65".to_owned(),
             "life=none".to_owned(),

@@ -247,7 +247,13 @@ fn dry_steps_of_unlike_bodies_converge_with_any_friction() {
 /// greatest that is taken.
 #[test]
 fn a_load_is_taken_up_to_the_edge_of_the_domain() {
-    let sets = ["grid.nodes=65", "stress=none", "life=none"];
+    let sets = [
+        "grid.nodes=65",
+        "stress=none",
+        "life=none",
+        "body_1.surface.amplitude_m=3e-7",
+        "body_2.surface.amplitude_m=3e-7",
+    ];
     let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
     let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
     let plan = Plan::new(&scene).unwrap();

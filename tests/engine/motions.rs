@@ -204,6 +204,7 @@ fn ridges_turned_by_a_right_angle_are_longitudinal() {
         "grid.nodes=65",
         "life=none",
         "stress=none",
+        "body_1.surface.phase_deg=0",
         "body_2.surface.kind=smooth",
     ];
     let with = |more: &[&str]| scene("demonstration_quick", &[&common, more].concat());

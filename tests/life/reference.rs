@@ -9,13 +9,16 @@ use asperity_engine::scene::{Event, Override, Scene};
 use asperity_engine::sim::{Frame, Simulation, Summary};
 
 /// Waves that 65 nodes carry, of which both bodies have the same: the passage repeats.
-const ROUGH: [&str; 7] = [
+const ROUGH: [&str; 10] = [
     "grid.nodes=65",
     "stress.depths=12",
     "life.damage_map=off",
     "body_1.surface.wavelength_x_m=4e-4",
     "body_2.surface.wavelength_x_m=4e-4",
     "body_2.surface.wavelength_y_m=4e-4",
+    "body_1.surface.amplitude_m=3e-7",
+    "body_2.surface.amplitude_m=3e-7",
+    "body_1.surface.phase_deg=0",
     "time.passages=6",
 ];
 /// Depths enough for models that look at the worst of them: of 12, τ0^c of a turned load errs by 4 %.

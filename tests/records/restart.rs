@@ -317,7 +317,7 @@ fn devices_pipes_and_folders_are_no_states() {
     let digest = body.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     });
-    std::fs::write(&spoiled, format!("asperity state 4 {digest:016x}\n{body}")).unwrap();
+    std::fs::write(&spoiled, format!("asperity state 5 {digest:016x}\n{body}")).unwrap();
     let began = std::time::Instant::now();
     for path in [
         std::path::Path::new("/dev/zero"),

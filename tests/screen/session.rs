@@ -20,6 +20,9 @@ fn repeating() -> Scene {
     scene(&[
         "grid.nodes=65",
         "stress.depths=8",
+        "body_1.surface.amplitude_m=3e-7",
+        "body_2.surface.amplitude_m=3e-7",
+        "body_1.surface.phase_deg=0",
         "body_1.surface.wavelength_x_m=4e-4",
         "body_2.surface.wavelength_x_m=4e-4",
         "body_2.surface.wavelength_y_m=4e-4",

@@ -5,7 +5,7 @@
 
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
-use asperity_engine::sim::{Frame, MaterialPoint, Simulation, Stage};
+use asperity_engine::sim::{Follow, Frame, MaterialPoint, Simulation, Stage};
 use asperity_explorer::tui::trace::Trace;
 
 /// Rainflow's gate, p_h.
@@ -64,6 +64,15 @@ fn crossings(sets: &[&str], wanted: usize) -> (Vec<Crossing>, f64) {
     while found.len() < wanted {
         sim.step().unwrap();
         sim.fill(&mut frame);
+        if sim.passage_steps() == 1 {
+            // Chosen: whoever governs, this one is followed.
+            let depth_m = frame.material_point.map_or(0.0, |point| point.depth_m);
+            sim.show_point(Follow {
+                body: 1,
+                depth_m,
+                x_m: None,
+            });
+        }
         let Some(point) = frame
             .material_point
             .filter(|_| frame.stage == Stage::Passage)

@@ -64,6 +64,8 @@ pub(crate) enum StudyKind {
     Scaling,
     /// Published tables and experiments beside what is found here; each row is a scene: asperity run evidence/NAME
     Evidence,
+    /// Life of the first scene against S on every mesh, by both counts, with what takes it
+    Story,
 }
 
 #[cfg(test)]

@@ -16,8 +16,15 @@ pub(super) fn add_life(lines: &mut Lines, scene: &Scene, s: &Summary) {
     );
     let factors = s.cycle_factor.zip(s.peak_factor).zip(s.traction_factor);
     let factors = known(factors, |((cycles, peaks), traction)| {
-        let [cycles, peaks, traction] = [cycles, peaks, traction].map(|factor| sig(factor, 3));
-        format!(" = cycles {cycles} x peaks {peaks} x traction {traction}")
+        let basis = s.basis_factor.unwrap_or(1.0);
+        let [cycles, peaks, traction] =
+            [cycles / basis, peaks, traction].map(|factor| sig(factor, 3));
+        let basis = if (basis - 1.0).abs() > 1e-6 {
+            format!(" x basis {}", sig(basis, 3))
+        } else {
+            String::new()
+        };
+        format!(" = cycles {cycles} x peaks {peaks} x traction {traction}{basis}")
     });
     lines.add("relative life", format!("{}{band}{factors}", sig(life, 4)));
     lines.add(
@@ -85,7 +92,9 @@ fn add_absolute(lines: &mut Lines, s: &Summary) {
     if let (Some(cycles), Some(low), Some(high)) =
         (s.life_cycles, s.life_cycles_low, s.life_cycles_high)
     {
-        let what = format!("{cycles:.3e} loading cycles ({low:.2e} to {high:.2e})");
+        let what = format!(
+            "{cycles:.3e} loading cycles ({low:.2e} to {high:.2e} by the mesh and the choice of count and model)"
+        );
         lines.add("absolute life", what);
     } else if let Some((_, why)) = s
         .life_basis

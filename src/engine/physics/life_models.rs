@@ -156,7 +156,7 @@ impl LifeEquation {
 /// How many stress cycles a loading cycle counts for, by depth.
 ///
 /// ```text
-/// global   n                                                  everywhere (the paper; an upper bound on damage)
+/// global   n                                                  everywhere (Pu, Zhu, Wang & Wang 2016)
 /// counted  n(z) from the histories of material points
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]

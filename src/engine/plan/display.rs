@@ -316,7 +316,7 @@ fn every(steps: u64) -> String {
 fn cycles_text(cycles: CycleBasis) -> &'static str {
     match cycles {
         CycleBasis::Damage => "counted by depth, each by its damage, in those of the faster body",
-        CycleBasis::Global => "one n for the volume, an upper bound on damage",
+        CycleBasis::Global => "one n for the volume, every contact a whole cycle",
         CycleBasis::Peaks => "counted by depth, by peaks",
     }
 }

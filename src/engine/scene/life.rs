@@ -26,7 +26,7 @@ closed_set! {
     pub enum CycleBasis {
         /// Counted by depth, each cycle by the damage it does, in loading cycles of the faster body.
         Damage = "damage" "counted by damage",
-        /// One global n for the whole volume (the paper's form; an upper bound on damage).
+        /// One global n for the whole volume (the form of Pu, Zhu, Wang & Wang 2016).
         Global = "global" "the paper's count",
         /// Counted by depth; a cycle of effective stress counts by its peak.
         Peaks = "peaks" "counted by peaks",

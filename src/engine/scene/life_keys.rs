@@ -12,7 +12,7 @@ pub(super) const LIFE: &[Key] = &[
     key("stress_exponent", "", Number(1.0, 40.0), Defaulted, "c: assumption, not from the paper"),
     key("weibull_slope", "", Number(0.3, 10.0), Defaulted, "e: assumption, not from the paper"),
     key("survival", "", Number(0.001, 0.999), Defaulted, "probability of survival Ps; cancels out of relative lives"),
-    key("cycles", "", Choice(CycleBasis::KEYS), Defaulted, "how cycles enter: each by the damage it does, in loading cycles of the faster body; one n for the volume (the paper's: an upper bound on damage); or each by its peak of effective stress"),
+    key("cycles", "", Choice(CycleBasis::KEYS), Defaulted, "how cycles enter: each by the damage it does, in loading cycles of the faster body; one n for the volume, every contact a whole cycle (Pu, Zhu, Wang & Wang 2016); or each by its peak of effective stress"),
     key("body", "", Choice(BodyChoice::KEYS), Defaulted, "whose life it is, in that body's own loading cycles (with cycles = \"damage\" in those of the faster body)"),
     key("depth_exponent", "", Number(0.0, 4.0), Defaulted, "h of Lundberg-Palmgren and Ioannides-Harris"),
     key("cut_off_a", "a", Number(1e-3, 1.0), Defaulted, "depth above which z^-h no longer grows; at a rough surface it would diverge"),

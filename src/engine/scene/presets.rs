@@ -102,6 +102,12 @@ pub fn find(name: &str) -> Option<&'static Preset> {
     all.find(|preset| preset.name == name)
 }
 
+/// What the explorer sets before it opens a scene by that name, unless it is told otherwise: the first scene's story begins
+/// with rolling.
+pub fn opening(name: &str) -> Option<&'static str> {
+    matches!(name, DEFAULT | QUICK).then_some("motion.slide_roll=0")
+}
+
 /// All names, for messages.
 pub(super) fn names() -> String {
     let names: Vec<_> = PRESETS.iter().map(|preset| preset.name).collect();

@@ -9,6 +9,7 @@
 //! short_domain   the same by the edges of the domain > 1 %                      likewise
 //! crests_not_felt  crests that press less than a thousandth of Hertz's pressure, or of which material points count less than
 //!                  a tenth, of a count above 1
+//! phase_locked   S = 0 between two rough bodies
 //! model_range    greatest over least life of the choices > 2
 //! above_smooth   the whole band of life above 1.01
 //! ```
@@ -49,6 +50,8 @@ pub enum CautionCode {
     StandingBody,
     /// The formula counts crests that the contact does not feel.
     CrestsNotFelt,
+    /// The same crests meet all the way: the life hangs on an arbitrary phase.
+    PhaseLocked,
     /// Models and cycle bases differ by a large factor.
     ModelRange,
     /// Life is longer than the smooth contact's.
@@ -112,6 +115,7 @@ pub(super) fn list(m: &Metrics, grounds: &Grounds) -> Vec<Caution> {
     say(CautionCode::ShortDomain, short_domain(grounds));
     say(CautionCode::StandingBody, standing(m, grounds));
     say(CautionCode::CrestsNotFelt, crests_not_felt(m, grounds));
+    say(CautionCode::PhaseLocked, phase_locked(m, grounds));
     say(CautionCode::ModelRange, model_range(m.life.as_ref()));
     say(CautionCode::AboveSmooth, above_smooth(m.life.as_ref()));
     say(CautionCode::NotSettled, not_settled(m, grounds));
@@ -329,6 +333,16 @@ fn crests_not_felt(m: &Metrics, grounds: &Grounds) -> Option<String> {
     })
 }
 
+/// Crest on crest or crest on valley: which, is chance in a machine and the scene's choice here.
+fn phase_locked(m: &Metrics, grounds: &Grounds) -> Option<String> {
+    let both_rough = m.amplitude_1_m > 0.0 && m.amplitude_2_m > 0.0;
+    (grounds.has_life && both_rough && m.slide_roll == 0.0).then(|| {
+        "S = 0: the same crests meet all the way, and this life is that of the one phase at which they do (phase_deg of a \
+         surface); it is another at another phase"
+            .to_owned()
+    })
+}
+
 fn no_life(grounds: &Grounds) -> Option<String> {
     (!grounds.has_life).then(|| "no life in this scene: it has no [life]".to_owned())
 }
@@ -408,9 +422,10 @@ mod tests {
     fn each_ground_has_its_caution_with_its_number() {
         use CautionCode::{
             AboveSmooth, BeyondYield, Dry, FilmBelowMolecule, MeshFilm, ModelRange, NoLife,
-            NotConverged, NotSettled, ShortDomain, StandingBody, StillYielding, StrengthUnknown,
+            NotConverged, NotSettled, PhaseLocked, ShortDomain, StandingBody, StillYielding,
+            StrengthUnknown,
         };
-        let table: [(CautionCode, &str, Spoil); 16] = [
+        let table: [(CautionCode, &str, Spoil); 17] = [
             (NotConverged, "3 of 100", |_, g| g.steps_not_converged = 3),
             (BeyondYield, "13 GPa", |_, g| g.p_max_greatest_pa = 13e9),
             (BeyondYield, "7.5 GPa", |_, g| {
@@ -438,6 +453,9 @@ mod tests {
             (ShortDomain, "2.0 %", |_, g| g.short_domain = Some(0.02)),
             (StandingBody, "body 1 stands (S = 2.00)", |m, _| {
                 (m.n_body_1, m.slide_roll) = (None, 2.0);
+            }),
+            (PhaseLocked, "phase_deg", |m, _| {
+                (m.amplitude_1_m, m.amplitude_2_m, m.slide_roll) = (2e-7, 1e-7, 0.0);
             }),
             (ModelRange, "factor of 28", |m, _| {
                 let detail = LifeDetail {

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Metrics;
 use super::damage_count::DamageCount;
 use super::stress_stage::StressStage;
+use super::{LifeEstimate, Metrics};
 use crate::math::grid::Grid;
 use crate::physics::cycles::{BodyId, Kinematics};
 use crate::physics::felt::felt_where_counted;
@@ -18,6 +18,8 @@ use crate::solve::stress::StressLaw;
 
 /// Depth, in a, at which the shown material point lies: shallow enough to feel single asperities.
 const SHOWN_DEPTH: f64 = 0.1;
+/// Ratio of the lives of both bodies below which neither is followed rather than the other.
+const ALIKE: f64 = 1.05;
 /// Columns of a damage map.
 const MAP_COLUMNS: usize = 24;
 
@@ -27,6 +29,8 @@ pub(super) struct Counting {
     trackers: [MaterialTracker; 2],
     shown_depth: usize,
     shown_body: BodyId,
+    /// Whether somebody chose it; else it is the one that governs.
+    is_chosen: bool,
     /// The shown point.
     pub(super) shown: Option<Sample>,
     profiles: [Profile; 2],
@@ -44,7 +48,7 @@ saved! {
     Counting {
         same: exponent;
         parts: trackers, profiles, by_damage;
-        free: shown_depth, shown_body, shown, reference, reference_size;
+        free: shown_depth, shown_body, is_chosen, shown, reference, reference_size;
     }
     holds |own, saved| saved.shown_depth < own.profiles[0].shear.len().max(1)
 }
@@ -109,6 +113,7 @@ impl Counting {
             trackers: [tracker(0), tracker(1)],
             shown_depth,
             shown_body: BodyId::One,
+            is_chosen: false,
             shown: None,
             profiles: [profile.clone(), profile],
             reference: 1.0,
@@ -127,9 +132,13 @@ impl Counting {
         self.reference_size = size;
     }
 
-    /// Takes over the unit of damage of counts of the same contact.
+    /// Takes over the unit of damage of counts of the same contact, and which body is followed.
     pub(super) fn take_reference(&mut self, other: &Self) {
         (self.reference, self.reference_size) = (other.reference, other.reference_size);
+        self.is_chosen = other.is_chosen;
+        if other.shown_body != self.shown_body {
+            self.show(other.shown_body, None, self.shown_depth);
+        }
     }
 
     /// Forgets all counts; the bodies have moved by `travelled` (in a).
@@ -181,9 +190,29 @@ impl Counting {
 
     /// Shows the point of `body` nearest to `x` (in a; `None`: the same point) at depth `k`.
     pub(super) fn look_at(&mut self, body: BodyId, x: Option<f64>, k: usize) {
+        self.is_chosen = true;
+        self.show(body, x, k);
+    }
+
+    fn show(&mut self, body: BodyId, x: Option<f64>, k: usize) {
         self.shown_depth = k;
         self.shown_body = body;
         self.trackers[body.index()].look_at(x, k);
+    }
+
+    /// Shows a point of the body that governs a life, unless somebody has chosen one. Where both live nearly alike, the one that
+    /// is shown stays.
+    pub(super) fn look_at_governing(&mut self, life: &LifeEstimate) {
+        let body = match life.detail.body {
+            1 => BodyId::One,
+            2 => BodyId::Two,
+            _ => return,
+        };
+        let shown = life.detail.life_body[self.shown_body.index()];
+        let is_clear = shown.is_none_or(|shown| shown > ALIKE * life.life_relative);
+        if !self.is_chosen && life.settled && body != self.shown_body && is_clear {
+            self.show(body, None, self.shown_depth);
+        }
     }
 
     /// Body of the shown point.

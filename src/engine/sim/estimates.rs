@@ -94,6 +94,10 @@ pub struct LifeDetail {
     pub model: Option<LifeModel>,
     /// Body that gives the life, 1 or 2.
     pub body: u8,
+    /// Part of the cycle factor that is a change of unit: from that body's own loading cycles to those in which its life is,
+    /// by damage the faster body's, `U_fast/|U_i|`; else 1.
+    #[serde(default)]
+    pub basis_factor: f64,
     /// Relative life of body 1 and 2 in own loading cycles (by damage: of the faster body); `None`: the body stands, or is
     /// not counted yet.
     pub life_body: [Option<f64>; 2],

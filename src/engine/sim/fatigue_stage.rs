@@ -307,6 +307,7 @@ impl LifeStage {
             detail: LifeDetail {
                 model: Some(self.asked.model),
                 body: body.index() as u8 + 1,
+                basis_factor: basis_factor(basis, body, now.slide_roll),
                 life_body: lives.map(|f| f.map(|f| f.relative)),
                 life_system: self.system(lives, now.slide_roll),
                 life_global: by(CycleBasis::Global),
@@ -320,6 +321,17 @@ impl LifeStage {
             },
         })
     }
+}
+
+/// From own loading cycles to those in which a life is: `U_fast/|U_i|` by damage, else 1. Of a body that stands, which has
+/// none of its own, 1.
+fn basis_factor(basis: CycleBasis, body: BodyId, slide_roll: f64) -> f64 {
+    let own = [1.0 - 0.5 * slide_roll, 1.0 + 0.5 * slide_roll].map(f64::abs);
+    let ratio = match basis {
+        CycleBasis::Damage => own[0].max(own[1]) / own[body.index()],
+        CycleBasis::Global | CycleBasis::Peaks => 1.0,
+    };
+    if ratio.is_finite() { ratio } else { 1.0 }
 }
 
 /// Part of ln L that a mesh which just carries the waves may miss: the waves are sampled too low, and what they cost falls

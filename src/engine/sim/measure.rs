@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Metrics;
 use super::scaling::Scaling;
-use crate::math::grid::{Grid, Symmetry};
+use crate::math::grid::Grid;
 use crate::solve::traction::TractionLaw;
 
 /// What one pass over the fields gives, dimensionless.
@@ -72,7 +72,8 @@ pub(super) struct RowSums {
     moment: f64,
     drag: f64,
     touching: f64,
-    /// Nodes in contact within the ellipse.
+    /// Nodes within the ellipse, and those of them in contact.
+    inside: f64,
     contact: f64,
     film: f64,
     /// Nodes within two thirds of the ellipse.
@@ -99,17 +100,13 @@ pub(super) fn measure(fields: &Fields, traction: &mut [f64], rows: &mut [RowSums
     for (j, row) in rows[..grid.ny].iter().enumerate() {
         total.add(row, grid.weight(j));
     }
-    let whole = match grid.symmetry {
-        Symmetry::Line => 2.0 * a,
-        Symmetry::MirrorY | Symmetry::General => std::f64::consts::PI * a * b,
-    };
     let load = total.load.max(f64::MIN_POSITIVE);
     Measured {
         p_max: total.p_max,
         h_central: at_origin(grid, fields.h).max(0.0),
         h_min: total.h_min.max(0.0),
         h_mean: (total.film / total.middle.max(f64::MIN_POSITIVE)).max(0.0),
-        contact_ratio: total.contact / whole,
+        contact_ratio: total.contact / total.inside.max(f64::MIN_POSITIVE),
         contact_load_ratio: total.touching / load,
         friction: total.drag / load,
         traction_max: total.traction_max,
@@ -126,6 +123,7 @@ impl RowSums {
         self.moment += weight * row.moment;
         self.drag += weight * row.drag;
         self.touching += weight * row.touching;
+        self.inside += weight * row.inside;
         self.contact += weight * row.contact;
         self.film += weight * row.film;
         self.middle += weight * row.middle;
@@ -159,6 +157,7 @@ fn sum_row(
         }
         let r2 = (grid.x(i) / a).powi(2) + y * y;
         if r2 <= 1.0 {
+            sums.inside += 1.0;
             sums.contact += f64::from(u8::from(touches));
             if r2 <= 4.0 / 9.0 {
                 sums.film += h[i];

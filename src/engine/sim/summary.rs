@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Caution, LubricationRegime, Rhythm, Stats};
+use super::{Cause, Caution, LubricationRegime, Rhythm, Stats};
 use crate::scene::MapReport;
 
 /// Summary of a run, SI. Means are over the last passage of 4 a, or the
@@ -15,7 +15,7 @@ use crate::scene::MapReport;
 pub struct Summary {
     /// Preset or file.
     pub scene: String,
-    /// Whether every step that was made converged.
+    /// Whether every step converged, and the run came to its end.
     pub converged: bool,
     /// Whether somebody ended it before it had done all that was asked for.
     #[serde(default)]
@@ -93,6 +93,9 @@ pub struct Summary {
     pub i_mean: Option<f64>,
     /// n_ref/n.
     pub cycle_factor: Option<f64>,
+    /// Part of it that is a change of unit, from the governing body's own loading cycles to the faster body's.
+    #[serde(default)]
+    pub basis_factor: Option<f64>,
     /// (I_ref/I)^(1/e).
     pub stress_factor: Option<f64>,
     /// Part of the stress factor due to pressure peaks.
@@ -135,6 +138,9 @@ pub struct Summary {
     pub life_basis: Option<String>,
     /// Body that gives `life_relative`, 1 or 2.
     pub life_body: Option<u8>,
+    /// What takes most of the life.
+    #[serde(default)]
+    pub life_cause: Option<Cause>,
     /// Relative life of body 1 in own loading cycles; by damage in those of the faster body.
     pub life_body_1: Option<f64>,
     /// Same of body 2.
@@ -153,9 +159,9 @@ pub struct Summary {
     pub life_models: Option<u32>,
     /// Loading cycles at the scene's survival, by the scene's calibration point.
     pub life_cycles: Option<f64>,
-    /// Lower end of its band.
+    /// Lower end of its band: numerical, and over the choice of count and model, which is most of it.
     pub life_cycles_low: Option<f64>,
-    /// Upper end of its band.
+    /// Upper end.
     pub life_cycles_high: Option<f64>,
     /// Where the pit of body 1 starts.
     pub pit_body_1: Option<PitStart>,
@@ -213,6 +219,21 @@ pub struct Summary {
     /// Quantities of the catalogue that are shown by themselves, summed up as it says, by their keys there.
     #[serde(flatten)]
     pub by_itself: BTreeMap<String, Option<f64>>,
+}
+
+impl Summary {
+    /// With the band of its absolute life as its relative life's and the models' range have it.
+    #[must_use]
+    pub fn with_cycles_band(mut self) -> Self {
+        let end = |ends: [Option<f64>; 2], outer: fn(f64, f64) -> f64| {
+            let end = ends.into_iter().flatten().reduce(outer)?;
+            Some(self.life_cycles? * end / self.life_relative?)
+        };
+        let low = end([self.life_relative_low, self.life_models_low], f64::min);
+        let high = end([self.life_relative_high, self.life_models_high], f64::max);
+        (self.life_cycles_low, self.life_cycles_high) = (low, high);
+        self
+    }
 }
 
 /// The point of a surface whose damage is greatest.

@@ -383,15 +383,15 @@ mod tests {
             (lay(surface), wavelength(surface), surface.amplitude_m())
         };
         draft.row = 1;
-        assert_eq!(rough(&draft), (Lay::Transverse, Some(2e-4), 3e-7));
+        assert_eq!(rough(&draft), (Lay::Transverse, Some(2e-4), 5e-7));
         draft.turn(1);
-        assert_eq!(rough(&draft), (Lay::Longitudinal, Some(2e-4), 3e-7));
+        assert_eq!(rough(&draft), (Lay::Longitudinal, Some(2e-4), 5e-7));
         draft.turn(1);
-        assert_eq!(rough(&draft), (Lay::Isotropic, Some(2e-4), 3e-7));
+        assert_eq!(rough(&draft), (Lay::Isotropic, Some(2e-4), 5e-7));
         draft.turn(1);
         assert_eq!(rough(&draft).0, Lay::Smooth);
         draft.turn(1);
-        assert_eq!(rough(&draft), (Lay::Transverse, Some(2e-4), 3e-7));
+        assert_eq!(rough(&draft), (Lay::Transverse, Some(2e-4), 5e-7));
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::tui::app::App;
 use crate::tui::lessons::{Lesson, built_in};
 use crate::tui::theme::Contrast;
 use asperity_engine::plan::Plan;
-use asperity_engine::scene::{Knob, Override, Scene, presets};
+use asperity_engine::scene::{Knob, Override, Scene, SceneError, presets};
 
 /// Nodes per side of the finest mesh unless asked for: a page has one thread, and climbs to it from the first life on.
 pub(super) const NODES: usize = 129;
@@ -42,7 +42,7 @@ impl PageLink {
         }
         let mut name = presets::QUICK.to_owned();
         let (mut nodes, mut lesson, mut contrast) = (None, None, Contrast::default());
-        let (mut overrides, mut knobs) = (Vec::new(), Vec::new());
+        let (mut overrides, mut knobs) = (Vec::<Override>::new(), Vec::new());
         let mut keys = Vec::new();
         for line in text.lines().filter(|line| !line.trim().is_empty()) {
             let (key, value) = line.split_once('=').ok_or_else(|| not_a_pair(line))?;
@@ -64,6 +64,9 @@ impl PageLink {
             let names: Vec<&str> = presets::all().iter().map(|preset| preset.name).collect();
             let names = names.join(", ");
             return Err(format!("{} is not a scene: {names}", shown(&name)));
+        }
+        if let Some(set) = presets::opening(&name) {
+            overrides.insert(0, set.parse().map_err(|e: SceneError| e.to_string())?);
         }
         let mut scene = Scene::load_with(&name, &overrides).map_err(|e| e.to_string())?;
         for (key, value) in knobs {

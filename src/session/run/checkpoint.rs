@@ -1,7 +1,7 @@
 //! A run's state in a file: JSON behind one line with format and digest.
 //!
 //! ```text
-//! asperity state 4 <FNV-1a of the rest, hexadecimal>
+//! asperity state 5 <FNV-1a of the rest, hexadecimal>
 //! { "program": ..., "scene": ..., "n_events_played": ..., "n_unconverged": ..., "stats": { ... }, "sim": { ... } }
 //! ```
 //! Numbers are written with as many digits as read back to the same bits.
@@ -17,7 +17,7 @@ use asperity_engine::files::fnv;
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{State, Stats};
 
-const MAGIC: &str = "asperity state 4 ";
+const MAGIC: &str = "asperity state 5 ";
 /// Nodes per side of the finest grid.
 const FINEST: usize = 1025;
 /// Digits of the digest.
@@ -117,7 +117,7 @@ impl Checkpoint {
             .and_then(|rest| rest.strip_suffix('\n'));
         let Some(digest) = digest.filter(|_| whole.is_ok()) else {
             return Err(failed(
-                "no state, or one of an earlier format (this build reads format 4)".to_owned(),
+                "no state, or one of an earlier format (this build reads format 5)".to_owned(),
             ));
         };
         let mut body = String::new();

@@ -228,7 +228,8 @@ impl Driver {
             summary.steps_planned = self.steps_planned;
             summary.stopped = stopped;
             summary.steps_not_converged = self.n_unconverged;
-            summary.converged = self.n_unconverged == 0 && !matches!(end, End::Stalled(_));
+            summary.converged =
+                self.n_unconverged == 0 && !stopped && !matches!(end, End::Stalled(_));
         }
         Outcome {
             end,

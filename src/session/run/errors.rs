@@ -132,6 +132,7 @@ fn set_by(
         fine.life_relative_low = Some(life * (-error).exp());
         fine.life_relative_high = Some(life * error.exp());
     }
+    *fine = std::mem::take(fine).with_cycles_band();
 }
 
 /// Part of ln L that the stress of one mesh may miss beside what two meshes are apart: they may agree by chance.

@@ -70,7 +70,7 @@ impl Outcome {
     pub fn cut_short(&mut self) {
         self.stopped = true;
         if let Some(summary) = &mut self.summary {
-            summary.stopped = true;
+            (summary.stopped, summary.converged) = (true, false);
         }
     }
 

@@ -9,14 +9,12 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::super::table::MarkdownTable;
-use super::super::{StudyError, planned, scene_with};
+use super::super::{Finished, StudyError, climb, planned, scene_with};
 use super::series::{Against, Measured, Part, Series, Varied};
 use super::{LEVELS, Sizes};
-use asperity_engine::plan::Plan;
-use asperity_engine::scene::{Order, Scene, presets};
-use asperity_engine::sim::{Frame, Simulation, Stage, Summary};
+use asperity_engine::scene::{Order, presets};
+use asperity_engine::sim::{Frame, Simulation, Stage};
 use asperity_picture::chart::{Curve, Mark};
-use asperity_session::run::{End, Ending, Request, Session};
 
 /// The name of the part that runs the default scene.
 pub const DEFAULT_PART: &str = "default scene";
@@ -111,37 +109,8 @@ pub struct WholeRun {
     pub seconds: f64,
 }
 
-/// What a finished simulation tells.
-struct Finished {
-    summary: Summary,
-    frames_per_s: f64,
-    seconds: f64,
-}
-
 /// A column: its name and what a run has in it.
 type Column<'a> = (&'static str, Box<dyn Fn(&WholeRun) -> String + 'a>);
-
-/// A run as users make it: on each of its meshes, the time of all of them.
-fn climb(scene: Scene, plan: Plan, threads: usize) -> Result<Finished, String> {
-    let request = Request {
-        name: presets::DEFAULT.to_owned(),
-        scene: Arc::new(scene),
-        plan,
-        threads,
-        watchers: Vec::new(),
-        ending: Ending::Passages,
-    };
-    let session = Session::start(request).map_err(|error| error.to_string())?;
-    let outcome = session.join().map_err(|error| error.to_string())?;
-    match (outcome.end, outcome.summary) {
-        (End::Done, Some(summary)) => Ok(Finished {
-            frames_per_s: outcome.steps_per_s.unwrap_or(f64::NAN),
-            seconds: outcome.wall_s,
-            summary,
-        }),
-        (end, _) => Err(format!("{end:?}")),
-    }
-}
 
 fn run(setting: Resolution, more: &[&str], threads: usize) -> Result<Finished, String> {
     let mut sets = setting.keys();
@@ -150,7 +119,7 @@ fn run(setting: Resolution, more: &[&str], threads: usize) -> Result<Finished, S
     sets.extend(more.iter().map(|&key| key.to_owned()));
     let (scene, plan) = planned(scene_with(presets::DEFAULT, &sets)?)?;
     if setting.climbs {
-        return climb(scene, plan, threads);
+        return climb(Arc::new(scene), plan, threads);
     }
     let begun = Instant::now();
     let mut sim = Simulation::new(&scene, plan, threads).map_err(|error| error.to_string())?;

@@ -63,18 +63,17 @@ fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary 
         life_count: stage.map(LifeStage::count_text),
         life_basis: stage.map(LifeStage::basis_text),
         life_body: life.map(|l| l.detail.body),
+        life_cause: life.map(LifeEstimate::cause),
+        basis_factor: life.map(|l| l.detail.basis_factor),
         life_body_1: life.and_then(|l| l.detail.life_body[0]),
         life_body_2: life.and_then(|l| l.detail.life_body[1]),
         life_models_low: life.map(|l| l.detail.spread_low),
         life_models_high: life.map(|l| l.detail.spread_high),
         life_models: life.map(|l| l.detail.variants),
         life_cycles: life.and_then(|l| l.detail.cycles),
-        life_cycles_low: life
-            .and_then(|l| Some(l.detail.cycles? * l.life_relative_low / l.life_relative)),
-        life_cycles_high: life
-            .and_then(|l| Some(l.detail.cycles? * l.life_relative_high / l.life_relative)),
         ..numbers
     }
+    .with_cycles_band()
 }
 
 /// Life of the smooth contact at the load and speed of now, as [`Summary::life_smooth`] has it; `None`: not known yet.

@@ -169,7 +169,11 @@ pub(super) fn publish(
         let counted = counting.counted();
         (m.n_counted_body_1, m.n_counted_body_2) = (counted[0], counted[1]);
     }
-    state.metrics.life = life_estimate(plan, state);
+    let life = life_estimate(plan, state);
+    if let (Some(counting), Some(life)) = (&mut state.counting, &life) {
+        counting.look_at_governing(life);
+    }
+    state.metrics.life = life;
 }
 
 /// Life as far as it is known.

@@ -91,6 +91,11 @@ impl App {
         }
     }
 
+    /// Whether a knob has been turned.
+    pub fn was_turned(&self) -> bool {
+        self.choice.before_turn.is_some()
+    }
+
     /// The accounts of the state before and of now, of one source.
     pub fn accounts(&self) -> Option<(LifeAccount, LifeAccount, Leading)> {
         self.run.setup.scene.life.as_ref()?;

@@ -161,7 +161,10 @@ impl Draft {
     }
 
     pub(super) fn take(&mut self, name: &'static str) {
-        match Scene::load(name) {
+        let opening = presets::opening(name).map(str::parse).transpose();
+        let scene =
+            opening.and_then(|set: Option<Override>| Scene::load_with(name, set.as_slice()));
+        match scene {
             Ok(scene) => (self.scene, self.preset) = (scene, Some(name)),
             Err(error) => self.verdict = Err(error.to_string()),
         }

@@ -5,6 +5,8 @@ use ratatui::layout::{Margin, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
+use asperity_engine::scene::Knob;
+
 use crate::tui::app::App;
 use crate::tui::lessons::{Beat, Claim, FoundAnswer, LessonQuestion, TourPhase, TourState};
 use crate::tui::theme::Role;
@@ -58,13 +60,30 @@ pub(super) fn of(app: &App) -> Option<Caption> {
             longest: lesson.beats.iter().map(letters).max().unwrap_or(0),
         });
     }
-    scripted(app).map(|text| Caption {
-        title: "the scene says".to_owned(),
+    let (title, text) = match scripted(app) {
+        Some(text) => ("the scene says", text),
+        None if is_to_begin(app) => ("to begin", BEGIN),
+        None => return None,
+    };
+    Some(Caption {
+        title: title.to_owned(),
         words: vec![(text.to_owned(), Role::Text)],
         hint: "",
         figures: String::new(),
         longest: text.chars().count(),
     })
+}
+
+/// What one turns first.
+const BEGIN: &str = "S = 0: both surfaces roll, in step. Press \u{2192}, which turns S, to let them slide past each other, and watch the life.";
+
+/// Whether a scene begins with rolling, and nobody has turned anything yet.
+fn is_to_begin(app: &App) -> bool {
+    let scene = &app.run.setup.scene;
+    scene.life.is_some()
+        && scene.motion.slide_roll == 0.0
+        && app.target(Knob::SlideRoll) == 0.0
+        && !app.was_turned()
 }
 
 /// The question with its answers, what to look at, or what was found.

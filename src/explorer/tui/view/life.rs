@@ -55,6 +55,9 @@ pub(super) fn render(
     if roomy {
         number::model(app, rows.take(1), buffer);
     }
+    if roomy {
+        number::cause(app, rows.take(1), buffer);
+    }
     bars::mechanisms(app, &mut rows, buffer);
     if roomy {
         bars::waterfall_ends(app.view.theme, rows.take(1), buffer);

@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::tui::app::App;
+use crate::tui::app::{App, Leading};
 use crate::tui::theme::{Role, Theme};
 use crate::tui::units::{sig, sig_or_dash};
 use crate::tui::view::chart::{Plot, Symbol};
@@ -94,8 +94,10 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
     let theme = app.view.theme;
     let now = app.leading_factors();
     let pinned = app.view.pinned.map_or(1.0, |pinned| pinned.load_factor);
+    let basis = basis(app);
+    let cycles = now.and_then(|now| now.cycle).map(|cycle| cycle / basis);
     let factors = [
-        ("cycles", now.and_then(|now| now.cycle), Role::Cycles),
+        ("cycles", cycles, Role::Cycles),
         ("peaks", now.map(|now| now.peak), Role::Peaks),
         ("traction", now.map(|now| now.traction), Role::Traction),
         ("load", now.map(|now| now.load / pinned), Role::Strong),
@@ -105,7 +107,14 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
         .frozen
         .as_ref()
         .and_then(|ghost| ghost.leading_factors());
-    let frozen = ghost.map(|of| [of.cycle, Some(of.peak), Some(of.traction), Some(of.load)]);
+    let frozen = ghost.map(|of| {
+        [
+            of.cycle.map(|cycle| cycle / basis),
+            Some(of.peak),
+            Some(of.traction),
+            Some(of.load),
+        ]
+    });
     let (mut from, mut frozen_end) = (1.0, 1.0);
     for (n, (name, factor, role)) in factors.into_iter().enumerate() {
         let row = rows.take(1);
@@ -123,9 +132,21 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
         }
         from = to;
     }
+    if (basis - 1.0).abs() > 1e-6 {
+        let words = format!("  and ×{}: in cycles of the faster body", sig(basis, 3));
+        put(rows.take(1), 0, &theme.line(words, Role::Dim), buffer);
+    }
     let turned = factors[3].1.is_some_and(|load| load.ln().abs() > 0.01);
     if rows.rest.height >= 16 || turned {
         against(app, rows.take(1), buffer);
+    }
+}
+
+/// The change of unit in the cycles' factor of a simulated life; a formula counts in own cycles.
+fn basis(app: &App) -> f64 {
+    match (app.leading(), app.life()) {
+        (Leading::Simulated | Leading::Settling, Some(life)) => life.basis(),
+        _ => 1.0,
     }
 }
 
@@ -141,7 +162,14 @@ fn against(app: &App, row: Rect, buffer: &mut Buffer) {
     };
     // A load that is cut is another load.
     let load = unit.show(load, 3);
+    let now = app.leading_life().zip(app.leading_factors());
+    let common = now
+        .map(|(life, factors)| life * factors.load)
+        .filter(|_| app.view.pinned.is_none());
+    let common = common.map_or_else(String::new, |life| format!(": life {}", sig(life, 2)));
     let forms = [
+        format!("  against {whose} {load}{common}"),
+        format!("  against {load}{common}"),
         format!("  against {whose} {load}"),
         format!("  of {whose} {load}"),
         format!("  against {load}"),

@@ -28,13 +28,18 @@ pub(super) fn counts(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
     {
         let row = rows.take(1);
         // A figure that is cut is another figure.
-        let word = if row.width < 21 { "cnt. " } else { "counted " };
+        let (word, expected, end) = match row.width {
+            ..30 => ("", " (exp. ", ")"),
+            _ => ("counted ", " expected ", ""),
+        };
         let formula = formula[body].map_or_else(|| "∞".to_owned(), |n| sig(n, 3));
         let line = Line::from(vec![
             theme.span(name, role),
-            theme.span(format!("{formula:<5}"), Role::Formula),
             theme.span(word, Role::Dim),
             known(app, counted[body], 3, Role::Strong),
+            theme.span(expected, Role::Dim),
+            theme.span(formula, Role::Formula),
+            theme.span(end, Role::Dim),
         ]);
         put(row, 0, &line, buffer);
     }

@@ -9,7 +9,7 @@ use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
 use crate::tui::view::areas::{Areas, PanelSpacing};
 use crate::tui::view::digits;
-use crate::tui::view::panel::led;
+use crate::tui::view::panel::{led, simulated};
 use crate::tui::view::place::RowAllotment;
 use crate::tui::view::place::{columns_from, fitted, fitting, put};
 
@@ -80,6 +80,24 @@ pub(super) fn model(app: &App, row: Rect, buffer: &mut Buffer) {
         &theme.line(words.unwrap_or_default(), Role::Dim),
         buffer,
     );
+}
+
+/// What takes the life, and whose it is.
+pub(super) fn cause(app: &App, row: Rect, buffer: &mut Buffer) {
+    let Some(life) = app.life() else {
+        return;
+    };
+    let words = life.cause().words();
+    let mut forms = vec![words.to_owned()];
+    if let body @ 1.. = life.detail.body {
+        forms.insert(0, format!("{words}; body {body} governs"));
+        forms.insert(1, format!("{words}; body {body}"));
+    }
+    if let Some(words) = fitting(forms.iter().map(String::as_str), usize::from(row.width)) {
+        let mut line = app.view.theme.line(words, Role::Strong);
+        line.style = simulated(app, line.style);
+        put(row, 0, &line, buffer);
+    }
 }
 
 /// Whether the large figure's source stands beside it.

@@ -67,6 +67,7 @@ fn name(caution: &Caution) -> &'static str {
         CautionCode::ShortDomain => "short domain",
         CautionCode::StandingBody => "a body stands",
         CautionCode::CrestsNotFelt => "crests not felt",
+        CautionCode::PhaseLocked => "one phase only",
         CautionCode::ModelRange => "choices differ",
         CautionCode::AboveSmooth => "above smooth",
         CautionCode::NotSettled => "not settled",
