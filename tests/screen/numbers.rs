@@ -216,7 +216,7 @@ fn check_life(screen: &[String], bench: &Bench, at: &Closed) {
     let cycles = 0.999 / worst..=1.001;
     assert!(cycles.contains(&life.cycle_factor), "{cycles:?}");
     let paper = life.detail.life_global.unwrap();
-    assert_eq!(word(screen, "paper's count "), sig(paper, 2));
+    assert_eq!(word(screen, "Pu et al. 2016 "), sig(paper, 2));
     let (low, high) = (life.life_relative_low, life.life_relative_high);
     let half = 0.5 * (high / low).ln();
     if half < 0.05 {

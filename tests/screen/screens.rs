@@ -447,8 +447,8 @@ fn an_operating_point_is_typed_judged_and_run() {
     };
     assert_eq!(next.contact.rx_m, 0.0125);
     assert_ne!(next.contact.ry_m, Some(1e-12));
-    // A typical point by its digit, and Escape drops all.
-    app.apply(Action::OperatingPoint);
+    // A preset by its digit, and Escape drops all.
+    app.apply(Action::Scene);
     app.apply(Action::Typical(2));
     assert!(text(&app, 80, 24).contains("ball_bearing"));
     assert_eq!(app.apply(Action::Close), []);

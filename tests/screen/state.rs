@@ -9,7 +9,7 @@ use std::time::Duration;
 use crate::common::tui_fixture::{
     self, State, buffer, found, mouse, plain, play, running, scene, sent, settled, setup_of, text,
 };
-use asperity_engine::scene::{Event, Scene, Surface};
+use asperity_engine::scene::{CycleBasis, Event, Scene, Surface};
 use asperity_engine::sim::Knob;
 use asperity_explorer::tui::action::Action;
 use asperity_explorer::tui::app::{App, Effect, ErrandKind, Leading};
@@ -257,6 +257,27 @@ fn a_lesson_asks_shows_tells_moves_on_and_returns() {
     app.rebuilt(setup_of(own));
     assert!(!text(&app, 160, 48).contains("One asperity"));
     assert_eq!(app.apply(Action::NextBeat), []);
+}
+
+#[test]
+fn one_key_counts_the_other_way_and_back() {
+    let mut app = running(plain());
+    let cycles = |app: &mut App| {
+        let scene = staged(&app.apply(Action::OtherCount));
+        app.rebuilt(setup_of(scene.clone()));
+        scene.life.unwrap().cycles
+    };
+    // The fixture's scene has the paper's.
+    assert_eq!(cycles(&mut app), CycleBasis::Damage);
+    assert_eq!(cycles(&mut app), CycleBasis::Global);
+    app.apply(Action::Lessons);
+    let scene_1 = staged(&app.apply(Action::Typical(0)));
+    app.rebuilt(setup_of(scene_1));
+    assert_eq!(
+        app.apply(Action::OtherCount),
+        [],
+        "a lesson keeps its count"
+    );
 }
 
 #[test]

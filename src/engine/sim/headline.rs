@@ -42,8 +42,8 @@ impl Cause {
     /// In a few words.
     pub fn words(self) -> &'static str {
         match self {
-            Self::Cycles => "stress cycles take it",
-            Self::Peaks => "pressure peaks take it",
+            Self::Cycles => "cycles take it",
+            Self::Peaks => "peaks take it",
             Self::Traction => "traction takes it",
             Self::Nothing => "nothing takes any of it",
         }

@@ -56,6 +56,8 @@ pub enum Action {
     Zoom,
     /// Read the map at a place given in parts of the picture (0 to 1 along and down).
     Probe(f64, f64),
+    /// Count cycles the other way: by their damage, or every contact as one, as the paper does.
+    OtherCount,
     /// Freeze this state to compare with; let it go again.
     Pin,
     /// What the material point shows.

@@ -395,6 +395,36 @@ mod tests {
     }
 
     #[test]
+    fn changes_are_taken_back_one_by_one_and_digits_edit_their_row() {
+        let mut draft = draft();
+        let first = draft.scene.clone();
+        draft.row = 1;
+        draft.turn(1);
+        let second = draft.scene.clone();
+        assert!(second != first);
+        draft.turn_to(Form::Point);
+        let number = |choice: &Choice| !choice.keys(&second).is_empty();
+        draft.row = Form::Point
+            .rows()
+            .iter()
+            .position(number)
+            .expect("a number");
+        draft.turn(1);
+        let third = draft.scene.clone();
+        assert!(third != second);
+        // All rows were a preset's once, by a digit that was meant for one.
+        draft.take_digit(2);
+        assert_eq!(
+            (draft.typed.take().as_deref(), &draft.scene),
+            (Some("3"), &third)
+        );
+        for before in [&second, &first, &first] {
+            draft.undo();
+            assert_eq!(&draft.scene, before);
+        }
+    }
+
+    #[test]
     fn a_wave_that_the_grid_does_not_carry_is_refused_in_words() {
         let mut draft = draft();
         draft.row = 2;

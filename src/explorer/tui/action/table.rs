@@ -66,6 +66,7 @@ pub const KEYS: &[Row] = rows! {
         "< >", "another point of the body": ch('<') => MovePoint(-1), ch('>') => MovePoint(1);
         "b", "freeze to compare; release": ch('b') => Pin;
         "y", "life, friction, Stribeck": ch('y') => Curve;
+        "a", "count: by damage, Pu et al.": ch('a') => OtherCount;
         "u", "other units": ch('u') => Units;
         "c", "contrast: high, light": ch('c') => Contrast;
         "i", "plan: what is computed, why": ch('i') => Plan;

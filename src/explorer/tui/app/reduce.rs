@@ -55,6 +55,7 @@ impl App {
             Action::Save => self.errand(ErrandKind::Save),
             Action::Write => self.errand(ErrandKind::Write),
             Action::Curve => self.next_curve(),
+            Action::OtherCount => self.other_count(),
             Action::Replay => self.toggle_replay(),
             Action::PointBody => self.other_body(),
             Action::PointDepth(by) => self.point_depth(by),
@@ -119,6 +120,7 @@ impl App {
             | Action::MovePoint(_)
             | Action::PutPoint(_)
             | Action::Curve
+            | Action::OtherCount
             | Action::Replay
             | Action::Record
             | Action::View

@@ -172,22 +172,23 @@ impl App {
             .is_some_and(|replay| replay.motion() == ReplayMotion::Frozen)
     }
 
-    /// The point that was chosen; before that the one that the run shows.
-    fn aimed(&mut self) -> &mut Chosen {
+    /// The point that was chosen; before that the one that the run shows, of the body that governs.
+    fn aimed(&self) -> Chosen {
         let shown = self.frame().and_then(|frame| {
             let (point, slice) = (frame.material_point?, frame.slice.as_ref()?);
             let above = |z: &&f64| **z < point.depth_m * (1.0 - 1e-6);
+            let governing = frame.metrics.life.map(|life| life.detail.body);
             Some(Chosen {
-                body: point.body,
+                body: governing.filter(|body| *body > 0).unwrap_or(point.body),
                 depth: slice.depths_m.iter().take_while(above).count(),
                 place_m: 0.0,
             })
         });
-        self.replay.point.get_or_insert(shown.unwrap_or_default())
+        self.replay.point.or(shown).unwrap_or_default()
     }
 
     fn retrace(&mut self) {
-        let point = *self.aimed();
+        let point = self.aimed();
         let Some(replay) = &self.replay.playing else {
             return;
         };
@@ -196,15 +197,17 @@ impl App {
     }
 
     pub(super) fn other_body(&mut self) -> Vec<Effect> {
-        let point = self.aimed();
+        let mut point = self.aimed();
         point.body = 3 - point.body;
+        self.replay.point = Some(point);
         self.followed(None)
     }
 
     pub(super) fn point_depth(&mut self, by: i32) -> Vec<Effect> {
         let last = self.depths().saturating_sub(1) as i32;
-        let point = self.aimed();
+        let mut point = self.aimed();
         point.depth = (point.depth as i32 + by).clamp(0, last) as usize;
+        self.replay.point = Some(point);
         self.followed(None)
     }
 
@@ -234,7 +237,9 @@ impl App {
         if let (Some(replay), Some(here)) = (&self.replay.playing, here) {
             // Bodies that run towards −x enter on the other side.
             let heading = replay.frame().metrics.entrainment_m_s.signum();
-            self.aimed().place_m += heading * (x_m - here);
+            let mut point = self.aimed();
+            point.place_m += heading * (x_m - here);
+            self.replay.point = Some(point);
         }
         self.followed(Some(x_m))
     }
@@ -247,7 +252,7 @@ impl App {
     /// Tells the run which point is followed.
     fn followed(&mut self, x_m: Option<f64>) -> Vec<Effect> {
         self.retrace();
-        let point = *self.aimed();
+        let point = self.aimed();
         let slice = self.frame().and_then(|frame| frame.slice.as_ref());
         let Some(depth_m) = slice.and_then(|s| s.depths_m.get(point.depth).copied()) else {
             self.say("no stress is computed, so only the pressure can be followed");

@@ -10,7 +10,7 @@ use crate::tui::choice::{Draft, Form};
 use crate::tui::kinds::Overlay;
 use crate::tui::tables;
 use crate::tui::wiring::{Setup, Shown};
-use asperity_engine::scene::Scene;
+use asperity_engine::scene::{CycleBasis, Scene};
 use asperity_engine::sim::Stage;
 
 impl App {
@@ -84,7 +84,8 @@ impl App {
             Action::Turn(by) => draft.turn(by),
             Action::TurnFar(by) => draft.turn(3 * by),
             Action::Type => draft.begin_typing(),
-            Action::Typical(place) => draft.take_typical(place),
+            Action::Typical(place) => draft.take_digit(place),
+            Action::Home => draft.undo(),
             Action::Enter => return Some(self.run_draft()),
             _ => return None,
         }
@@ -105,6 +106,30 @@ impl App {
             .map_or_else(|| self.lesson.own_scene.1.clone(), str::to_owned);
         self.lesson.own_scene = (draft.scene.clone().into(), name.clone());
         vec![Effect::Rebuild(Box::new(draft.scene), name)]
+    }
+
+    /// The same scene with its cycles counted the other way.
+    pub(super) fn other_count(&mut self) -> Vec<Effect> {
+        let mut scene = self.scene_now();
+        let Some(life) = &mut scene.life else {
+            self.say("no life in this scene, and so no count");
+            return Vec::new();
+        };
+        if self.lesson.tour.is_some() {
+            self.say("a lesson keeps its count; T ends it");
+            return Vec::new();
+        }
+        if !self.offers(ErrandKind::Rebuild) {
+            self.say("no other scene can be started from here");
+            return Vec::new();
+        }
+        life.cycles = match life.cycles {
+            CycleBasis::Damage => CycleBasis::Global,
+            CycleBasis::Global | CycleBasis::Peaks => CycleBasis::Damage,
+        };
+        let name = self.lesson.own_scene.1.clone();
+        self.lesson.own_scene = (scene.clone().into(), name.clone());
+        vec![Effect::Rebuild(Box::new(scene), name)]
     }
 
     /// What is on the screen, for files; `None` before the passage.

@@ -43,8 +43,12 @@ impl App {
             }
             return Some(Vec::new());
         }
-        let asks = |tour: &&TourState| tour.phase == TourPhase::Asks;
-        match (self.lesson.tour.as_ref().filter(asks), action) {
+        match (self.lesson.tour.as_ref(), action) {
+            (Some(tour), Action::Typical(_)) if tour.phase != TourPhase::Asks => {
+                // An answer that comes late turns no knob.
+                self.say("digits answer while a question is asked");
+                Some(Vec::new())
+            }
             (Some(tour), Action::Typical(place)) => {
                 let answers = tour.beat().question.as_ref()?.answers.len();
                 if place >= answers {

@@ -5,6 +5,9 @@ use crate::tui::units::{Units, read_number, sig};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene, SceneError, keys, presets};
 
+/// Changes that can be taken back.
+const MOST_KEPT: usize = 100;
+
 /// What a draft is changed by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
@@ -39,6 +42,8 @@ pub struct Draft {
     pub verdict: Result<String, String>,
     /// The preset that was chosen.
     pub preset: Option<&'static str>,
+    /// What it was before each change.
+    before: Vec<(Scene, Option<&'static str>)>,
 }
 
 impl Draft {
@@ -51,6 +56,7 @@ impl Draft {
             row: 0,
             verdict: Ok(String::new()),
             preset: None,
+            before: Vec::new(),
         };
         draft.judge();
         draft
@@ -123,6 +129,7 @@ impl Draft {
             .and_then(|sets| Scene::from_toml_with(&self.scene.to_toml(), "the scene", &sets));
         match made {
             Ok(scene) => {
+                self.keep();
                 self.scene = scene;
                 self.judge();
             }
@@ -133,18 +140,41 @@ impl Draft {
     /// Turns the chosen row.
     pub fn turn(&mut self, by: i32) {
         self.judge();
+        // A row that is put by its number keeps itself.
+        if self.chosen().keys(&self.scene).is_empty() {
+            self.keep();
+        }
         self.chosen().turn(self, by);
         if self.chosen().keys(&self.scene).is_empty() {
             self.judge();
         }
     }
 
-    /// Takes a typical scene by its place.
-    pub fn take_typical(&mut self, place: usize) {
-        if let Some(preset) = presets::all().get(place) {
+    /// A digit: begins the number of a row that takes one, and chooses a preset in the row of presets.
+    pub fn take_digit(&mut self, place: usize) {
+        if !self.chosen().keys(&self.scene).is_empty() {
+            self.typed = Some((place + 1).to_string());
+        } else if let (Choice::Preset, Some(preset)) = (self.chosen(), presets::all().get(place)) {
+            self.keep();
             self.take(preset.name);
             self.judge();
         }
+    }
+
+    /// Takes the last change back.
+    pub fn undo(&mut self) {
+        if let Some(before) = self.before.pop() {
+            (self.scene, self.preset) = before;
+            self.judge();
+        }
+    }
+
+    /// Keeps what is changed next.
+    fn keep(&mut self) {
+        if self.before.len() == MOST_KEPT {
+            self.before.remove(0);
+        }
+        self.before.push((self.scene.clone(), self.preset));
     }
 
     pub(super) fn take_preset(&mut self, by: i32) {

@@ -272,15 +272,15 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
         Form::Scene => (
             "change the scene (e closes, E operating point)",
             theme.pick(
-                "↑↓ choose  ←→ change  Enter runs it  e, Esc leave it",
-                "up, down: choose; left, right: change; Enter runs it; Esc leaves it",
+                "↑↓ choose  ←→ change  x undo  Enter runs it  e, Esc leave it",
+                "up, down: choose; left, right: change; x: undo; Enter runs it",
             ),
         ),
         Form::Point => (
             "operating point (E closes, e scene)",
             theme.pick(
-                "↑↓ choose  ←→ change  = type  1-9 typical  Enter runs it",
-                "up, down: choose; left, right: change; =: type; 1-9: typical",
+                "↑↓ choose  ←→ change  1-9 = type  x undo  Enter runs it",
+                "up, down: choose; left, right: change; 1-9, =: type; x: undo",
             ),
         ),
     };

@@ -138,7 +138,7 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
     }
     let turned = factors[3].1.is_some_and(|load| load.ln().abs() > 0.01);
     if rows.rest.height >= 16 || turned {
-        against(app, rows.take(1), buffer);
+        against(app, rows.take(1), turned, buffer);
     }
 }
 
@@ -150,8 +150,8 @@ fn basis(app: &App) -> f64 {
     }
 }
 
-/// What the load's factor is against.
-fn against(app: &App, row: Rect, buffer: &mut Buffer) {
+/// What the load's factor is against, and the life with it where the load is another.
+fn against(app: &App, row: Rect, is_turned: bool, buffer: &mut Buffer) {
     let unit = match app.run.setup.scene.kind() {
         ContactKind::Point => app.view.units.force(),
         ContactKind::Line => app.view.units.force_per_length(),
@@ -165,7 +165,7 @@ fn against(app: &App, row: Rect, buffer: &mut Buffer) {
     let now = app.leading_life().zip(app.leading_factors());
     let common = now
         .map(|(life, factors)| life * factors.load)
-        .filter(|_| app.view.pinned.is_none());
+        .filter(|_| app.view.pinned.is_none() && is_turned);
     let common = common.map_or_else(String::new, |life| format!(": life {}", sig(life, 2)));
     let forms = [
         format!("  against {whose} {load}{common}"),

@@ -58,11 +58,12 @@ pub(super) fn other_count(app: &App, rows: &mut RowAllotment, buffer: &mut Buffe
         return;
     };
     let (word, other) = match asked.cycles {
-        CycleBasis::Damage => ("paper's count", life.detail.life_global),
+        CycleBasis::Damage => ("Pu et al. 2016", life.detail.life_global),
         CycleBasis::Global | CycleBasis::Peaks => ("by damage", life.detail.life_damage),
     };
     let word = app.view.theme.span(format!("{word} "), Role::Dim);
-    let line = Line::from(vec![word, known(app, other, 2, Role::Text)]);
+    let key = app.view.theme.span("  a", Role::Key);
+    let line = Line::from(vec![word, known(app, other, 2, Role::Text), key]);
     put(rows.take(1), 0, &line, buffer);
 }
 
