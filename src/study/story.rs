@@ -36,6 +36,13 @@ pub struct Told {
     pub summary: Summary,
 }
 
+impl Told {
+    /// S of the run.
+    pub fn slide_roll(&self) -> f64 {
+        self.slide_roll
+    }
+}
+
 /// What of it is run.
 #[derive(Debug, Clone, Copy)]
 struct Asked {

@@ -190,6 +190,20 @@ impl Written {
         Some(Shown::exact(self.summary[key].as_f64()?))
     }
 
+    /// The change of unit, which is told where there is one.
+    fn said_basis(&self) -> Option<Shown> {
+        match self.summary["basis_factor"].as_f64()? {
+            1.0 => None,
+            _ => self.said("relative life", "basis ", 1.0),
+        }
+    }
+
+    /// A cycle factor without the change of unit that is in it.
+    fn own_cycles(&self, cycles: Option<Shown>) -> Option<Shown> {
+        let basis = self.summary["basis_factor"].as_f64()?;
+        Some(Shown::exact(cycles?.value / basis))
+    }
+
     fn cell(&self, row: usize, column: &str) -> Option<f64> {
         self.table[row][column].parse().ok()
     }
@@ -351,6 +365,13 @@ impl Screen {
     }
 
     /// The factor behind the bar of that name.
+    /// The body that governs, beside what takes the life.
+    fn governs(&self) -> Option<Shown> {
+        let of = |row: &&String| row.contains("take") && row.contains("; body ");
+        let row = self.rows.iter().find(of).filter(|_| self.is_simulated)?;
+        Shown::read(row.split_once("; body ")?.1.split_whitespace().next()?, 1.0)
+    }
+
     fn factor(&self, name: &str) -> Option<Shown> {
         if !self.is_simulated {
             return None;
@@ -442,7 +463,29 @@ fn of_the_passage(w: &Written) -> Vec<Row> {
             "life_relative",
             w.said("relative life", "relative life", 1.0),
         ),
-        last("cycle_factor", w.said("relative life", "cycles ", 1.0)),
+        last("cycle_factor", None),
+        row(
+            "own cycles",
+            &[
+                ("summary", w.own_cycles(w.summary("cycle_factor"))),
+                ("report", w.said("relative life", "cycles ", 1.0)),
+                ("report's headline", w.said("because", "cycles x ", 1.0)),
+            ],
+        ),
+        row(
+            "basis_factor",
+            &[
+                ("summary", w.summary("basis_factor")),
+                ("report", w.said_basis()),
+            ],
+        ),
+        row(
+            "life_body",
+            &[
+                ("summary", w.summary("life_body")),
+                ("report", w.said("because", "body ", 1.0)),
+            ],
+        ),
         last("peak_factor", w.said("relative life", "peaks ", 1.0)),
         last("traction_factor", w.said("relative life", "traction ", 1.0)),
         last("load_factor", None),
@@ -550,7 +593,20 @@ fn of_the_last_step(w: &Written, screen: &Screen, line: bool) -> Vec<Row> {
             None,
         ),
         three("life_relative", w.recorded("life/relative", 0, 1.0), None),
-        three("cycle_factor", None, screen.factor("cycles")),
+        row(
+            "own cycles",
+            &[
+                ("table", w.own_cycles(w.last("cycle_factor"))),
+                ("screen", screen.factor("cycles")),
+            ],
+        ),
+        row(
+            "life_body",
+            &[
+                ("summary", w.summary("life_body")),
+                ("screen", screen.governs()),
+            ],
+        ),
         three("peak_factor", None, screen.factor("peaks")),
         three("traction_factor", None, screen.factor("traction")),
         three("load_factor", None, screen.factor("load")),

@@ -260,6 +260,47 @@ fn a_lesson_asks_shows_tells_moves_on_and_returns() {
 }
 
 #[test]
+fn answers_and_what_a_lesson_offers_can_be_pressed() {
+    for (width, height) in [(80, 24), (160, 48), (60, 20)] {
+        let mut app = running(plain());
+        app.apply(Action::Lessons);
+        app.apply(Action::Typical(0));
+        let press = |app: &mut App, words: &str, into: usize| {
+            let screen = text(app, width, height);
+            let rows = screen.lines().enumerate();
+            let found = rows.filter_map(|(y, row)| {
+                Some((y, row.find(words).map(|at| row[..at].chars().count())?))
+            });
+            let (y, x) = found
+                .last()
+                .unwrap_or_else(|| panic!("{words} in\n{screen}"));
+            let at = ((x + into) as u16, y as u16);
+            let screen = Rect::new(0, 0, width, height);
+            view::pointed(app, screen, mouse(PointerAct::Press, at.0, at.1))
+        };
+        // The second answer, by its number and in its words.
+        for (words, into) in [(" 2 ", 1), ("once by each ridge", 3)] {
+            assert_eq!(
+                press(&mut app, words, into),
+                Some(Action::Typical(1)),
+                "{width}: {words}"
+            );
+        }
+        assert_eq!(press(&mut app, "How often", 2), None);
+        assert_eq!(press(&mut app, "n show", 2), Some(Action::NextBeat));
+        let scene_1 = staged(&app.apply(Action::Typical(0)));
+        app.rebuilt(setup_of(scene_1));
+        for (words, action) in [
+            ("n on", Action::NextBeat),
+            ("N back", Action::PreviousBeat),
+            ("T ends", Action::EndTour),
+        ] {
+            assert_eq!(press(&mut app, words, 1), Some(action), "{width}: {words}");
+        }
+    }
+}
+
+#[test]
 fn one_key_counts_the_other_way_and_back() {
     let mut app = running(plain());
     let cycles = |app: &mut App| {

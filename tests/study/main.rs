@@ -5,4 +5,5 @@ mod common;
 mod evidence;
 mod peers;
 mod pruning;
+mod story;
 mod studies;

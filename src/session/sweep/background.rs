@@ -15,7 +15,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::case::{Case, CaseEnd, CaseRecord, CaseStart, Neighbour, RunningCase, Until};
 use super::spec::ChainKeys;
 use crate::run::Settled;
-use asperity_engine::scene::Scene;
+use asperity_engine::scene::{CycleBasis, Scene};
 use asperity_engine::sim::State;
 
 /// Passages as a sweep's; workers go on as far as there are values.
@@ -125,6 +125,8 @@ pub struct Found {
     pub began: CaseStart,
     /// Relative life with its band: low, value, high. `None`: the scene computes none.
     pub life: Option<[f64; 3]>,
+    /// The same by the count that is not the scene's: the paper's, or by damage.
+    pub other: Option<f64>,
     /// Friction coefficient.
     pub friction: f64,
     /// λ: smooth central film by formula over the composite roughness; `None` for smooth surfaces.
@@ -344,6 +346,11 @@ fn found(scene: &Scene, record: &CaseRecord) -> Found {
             .life_relative
             .zip(band)
             .map(|(life, (low, high))| [low, life, high]),
+        other: match scene.life.as_ref().map(|life| life.cycles) {
+            Some(CycleBasis::Damage) => summary.life_global,
+            Some(CycleBasis::Global | CycleBasis::Peaks) => summary.life_damage,
+            None => None,
+        },
         friction: summary.friction_coefficient,
         lambda: record.lambda_ratio,
     }

@@ -91,5 +91,5 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("click", "on the map: read values"),
     ("click", "on the trace: follow it"),
     ("click", "on life against S: go there"),
-    ("click", "on a key in the last line"),
+    ("click", "on a key in the last line, an answer"),
 ];

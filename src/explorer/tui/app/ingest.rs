@@ -161,6 +161,7 @@ impl App {
                 life.life_relative,
                 life.life_relative_high,
             ]),
+            other: self.other_life(),
             friction,
             lambda: metrics.lambda_ratio,
         });

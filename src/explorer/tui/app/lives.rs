@@ -4,6 +4,7 @@ use super::state::{App, point_of};
 use crate::tui::dial::Dial;
 use crate::tui::kinds::Leading;
 use asperity_engine::physics::estimate::{Anchor, Factors, OperatingPoint};
+use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::{Caution, LifeEstimate, Stage};
 
 impl App {
@@ -45,6 +46,15 @@ impl App {
         match (self.leading(), self.life()) {
             (Leading::Simulated | Leading::Settling, Some(life)) => Some(life.life_relative),
             _ => self.leading_factors()?.life(),
+        }
+    }
+
+    /// The life by the count that is not the headline's: the paper's, or that by damage.
+    pub fn other_life(&self) -> Option<f64> {
+        let detail = self.life()?.detail;
+        match self.run.setup.scene.life.as_ref()?.cycles {
+            CycleBasis::Damage => detail.life_global,
+            CycleBasis::Global | CycleBasis::Peaks => detail.life_damage,
         }
     }
 

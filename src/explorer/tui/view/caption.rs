@@ -1,24 +1,37 @@
 //! Under the top line: what a lesson, or the scene's script, says now.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Margin, Rect};
+use ratatui::layout::{Margin, Position, Rect};
+use ratatui::style::{Color, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use asperity_engine::scene::Knob;
 
+use crate::tui::action::Action;
 use crate::tui::app::App;
 use crate::tui::lessons::{Beat, Claim, FoundAnswer, LessonQuestion, TourPhase, TourState};
 use crate::tui::theme::Role;
+use crate::tui::view::areas::Areas;
 use crate::tui::view::chart::Symbol;
 use crate::tui::view::place::{columns, put, put_right, rows_from};
+
+/// What the title's line offers: words, and what a press on them does.
+type Hint = (&'static str, Option<Action>);
+
+const ASKS: [Hint; 2] = [(" 1-9 answer ", None), (" n show ", Some(Action::NextBeat))];
+const GOES_ON: [Hint; 3] = [
+    (" n on ", Some(Action::NextBeat)),
+    (" N back ", Some(Action::PreviousBeat)),
+    (" T ends ", Some(Action::EndTour)),
+];
 
 /// Words to show.
 pub(super) struct Caption {
     title: String,
     /// Words with their roles, one after the other.
     words: Vec<(String, Role)>,
-    hint: &'static str,
+    hints: &'static [Hint],
     /// The numbers that the words speak of, as they are now.
     figures: String,
     /// Letters of the longest text of a lesson, so that the screen keeps its shape from beat to beat.
@@ -52,9 +65,9 @@ pub(super) fn of(app: &App) -> Option<Caption> {
                 lesson.beats.len()
             ),
             words: words(app, tour),
-            hint: match tour.phase {
-                TourPhase::Asks => " 1-9 answer  n show ",
-                _ => " n on  N back  T ends ",
+            hints: match tour.phase {
+                TourPhase::Asks => &ASKS,
+                TourPhase::Shows | TourPhase::Tells(_) => &GOES_ON,
             },
             figures,
             longest: lesson.beats.iter().map(letters).max().unwrap_or(0),
@@ -68,7 +81,7 @@ pub(super) fn of(app: &App) -> Option<Caption> {
     Some(Caption {
         title: title.to_owned(),
         words: vec![(text.to_owned(), Role::Text)],
-        hint: "",
+        hints: &[],
         figures: String::new(),
         longest: text.chars().count(),
     })
@@ -185,20 +198,55 @@ pub(super) fn render(app: &App, caption: &Caption, area: Rect, buffer: &mut Buff
     area.rows()
         .for_each(|row| edge.draw(row.as_position(), buffer));
     let text = area.inner(Margin::new(2, 0));
-    let hint = theme.line(caption.hint, Role::Dim);
+    let hint = theme.line(hint(caption), Role::Dim);
     let title = theme.span(&caption.title, Role::Key);
     let figures = theme.span(&caption.figures, Role::Strong);
     let beside = columns(text, 0, text.width.saturating_sub(hint.width() as u16));
     put(beside, 0, &Line::from(vec![title, figures]), buffer);
     put_right(text, 0, &hint, buffer);
-    let words = caption.words.iter().flat_map(|(text, role)| {
-        let words = match role {
-            Role::Text => Span::raw(theme.words(text)),
-            role => theme.span(text, *role),
-        };
-        [words, Span::raw(" ")]
+    let words = caption.words.iter().map(|(text, role)| match role {
+        Role::Text => Span::raw(theme.words(text)),
+        role => theme.span(text, *role),
     });
-    Paragraph::new(words.collect::<Line<'_>>())
-        .wrap(Wrap { trim: true })
-        .render(rows_from(text, 1), buffer);
+    wrapped(words).render(rows_from(text, 1), buffer);
+}
+
+fn hint(caption: &Caption) -> String {
+    caption.hints.iter().map(|(words, _)| *words).collect()
+}
+
+/// Words one after the other, broken between words.
+fn wrapped<'a>(words: impl Iterator<Item = Span<'a>>) -> Paragraph<'a> {
+    let words = words.flat_map(|span| [span, Span::raw(" ")]);
+    Paragraph::new(words.collect::<Line<'_>>()).wrap(Wrap { trim: true })
+}
+
+/// A press on what the title's line offers, or on an answer.
+pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> {
+    let area = areas.caption.inner(Margin::new(2, 0));
+    let caption = of(app).filter(|_| area.contains(at))?;
+    if at.y == area.y {
+        let from_end = area.right() - at.x;
+        let mut left = hint(&caption).chars().count() as u16;
+        let mut hints = caption.hints.iter();
+        let under = hints.find(|(words, _)| {
+            let end = left;
+            left = left.saturating_sub(words.chars().count() as u16);
+            (left + 1..=end).contains(&from_end)
+        });
+        return under?.1;
+    }
+    let tour = app.lesson.tour.as_ref()?;
+    (tour.phase == TourPhase::Asks).then_some(())?;
+    // As it is drawn, each word with the number of its answer for a colour: the first is the question.
+    let numbered = caption.words.iter().enumerate().map(|(place, (text, _))| {
+        let answer = Color::Indexed(place.div_ceil(2) as u8);
+        Span::styled(app.view.theme.words(text), Style::new().fg(answer))
+    });
+    let mut drawn = Buffer::empty(area);
+    wrapped(numbered).render(rows_from(area, 1), &mut drawn);
+    match drawn[at].fg {
+        Color::Indexed(answer @ 1..) => Some(Action::Typical(usize::from(answer) - 1)),
+        _ => None,
+    }
 }

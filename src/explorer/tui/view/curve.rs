@@ -65,6 +65,10 @@ fn draw(
     }
     let curves = chart.render(app, buffer);
     let simulated = Symbol::new(theme, "•", "o", Role::Good);
+    let other = Symbol::new(theme, "∘", "x", Role::Cycles);
+    for (x, y) in &figure.other {
+        plot.mark(*x, *y, other, buffer);
+    }
     for point in &figure.points {
         plot.mark(point.x, point.y, simulated, buffer);
     }
@@ -101,6 +105,10 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
                 let mark = Span::styled(theme.pick(mark, plain), theme.style(role));
                 spans.extend([mark, theme.span(word, Role::Dim)]);
             }
+        }
+        if !figure.other.is_empty() {
+            let mark = Span::styled(theme.pick("∘ ", "x "), theme.style(Role::Cycles));
+            spans.extend([mark, theme.span(figure.other_name, Role::Dim)]);
         }
         Line::from(spans)
     };

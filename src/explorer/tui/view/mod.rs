@@ -147,6 +147,7 @@ pub fn pointed(app: &App, screen: Rect, pointer: Pointer) -> Option<Action> {
     }
     match pointer.act {
         PointerAct::Press => footer::pressed(app, &areas, at)
+            .or_else(|| caption::pressed(app, &areas, at))
             .or_else(|| knobs::pressed(app, &areas, at))
             .or_else(|| life::pressed(app, &areas, screen, at))
             .or_else(|| map::pressed(app, &areas, at))

@@ -6,6 +6,7 @@ use crate::tui::action::Action;
 use crate::tui::app::{App, CurveKind, Leading};
 use crate::tui::units::{nice_ceiling, sig};
 use crate::tui::view::chart::Plot;
+use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::Knob;
 use asperity_session::sweep::{Along, Found};
 
@@ -25,6 +26,9 @@ pub(super) struct CurveFigure {
     pub(super) formula: Vec<(f64, f64)>,
     /// What was simulated, with the ends of its band.
     pub(super) points: Vec<CurvePoint>,
+    /// The same by the other count, and whose that is.
+    pub(super) other: Vec<(f64, f64)>,
+    pub(super) other_name: &'static str,
     /// Where the knob is.
     pub(super) knob: f64,
     /// The number that leads now.
@@ -92,15 +96,27 @@ fn life(app: &App) -> CurveFigure {
         })
     };
     let points: Vec<_> = app.simulated(Along::SlideRoll).filter_map(point).collect();
+    let other = |found: &Found| Some((found.at.slide_roll, found.other?.log10()));
+    let other: Vec<_> = app.simulated(Along::SlideRoll).filter_map(other).collect();
     // At ±2 a body stands and the life falls without end: the axis is not for that.
     let known = formula.iter().filter(|place| place.0.abs() < MOVES);
     let known = known.map(|place| place.1);
     let now = app.leading_life().map(f64::log10);
-    let y = decades(known.chain(points.iter().map(|point| point.y)).chain(now));
+    let simulated = points
+        .iter()
+        .map(|point| point.y)
+        .chain(other.iter().map(|place| place.1));
+    let y = decades(known.chain(simulated).chain(now));
+    let cycles = app.run.setup.scene.life.as_ref().map(|life| life.cycles);
     CurveFigure {
         name: "life against S",
         formula,
         points,
+        other,
+        other_name: match cycles {
+            Some(CycleBasis::Damage) | None => "Pu",
+            Some(CycleBasis::Global | CycleBasis::Peaks) => "dam.",
+        },
         knob,
         now,
         x,

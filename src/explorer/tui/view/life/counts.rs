@@ -54,12 +54,13 @@ fn known(app: &App, value: Option<f64>, digits: i32, role: Role) -> Span<'static
 
 /// The life by the count that is not the headline's: the paper's, or that by damage.
 pub(super) fn other_count(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer) {
-    let (Some(life), Some(asked)) = (app.life(), &app.run.setup.scene.life) else {
+    let (Some(_), Some(asked)) = (app.life(), &app.run.setup.scene.life) else {
         return;
     };
-    let (word, other) = match asked.cycles {
-        CycleBasis::Damage => ("Pu et al. 2016", life.detail.life_global),
-        CycleBasis::Global | CycleBasis::Peaks => ("by damage", life.detail.life_damage),
+    let other = app.other_life();
+    let word = match asked.cycles {
+        CycleBasis::Damage => "Pu et al. 2016",
+        CycleBasis::Global | CycleBasis::Peaks => "by damage",
     };
     let word = app.view.theme.span(format!("{word} "), Role::Dim);
     let key = app.view.theme.span("  a", Role::Key);
