@@ -8,7 +8,7 @@ use asperity_engine::observe::{Claim, ObserveError, Overwrite, leftovers};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::Scene;
 use asperity_session::run::{
-    Checkpoint, Command, Companion, End, Ending, Outcome, Request, Session,
+    Checkpoint, Command, Companion, End, Ending, Outcome, Request, Session, over_phases,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -90,7 +90,11 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     }
     let errors = if is_plain {
         let (scene, threads) = (&prepared.scene, args.threads());
-        estimate_errors(scene, &plan, threads, &mut outcome, &interrupt)
+        let errors = estimate_errors(scene, &plan, threads, &mut outcome, &interrupt);
+        if let (End::Done, Some(summary)) = (&outcome.end, &mut outcome.summary) {
+            over_phases(scene, &plan, threads, summary);
+        }
+        errors
     } else {
         "not estimated: knobs were turned by hand, or the recording ends early".to_owned()
     };

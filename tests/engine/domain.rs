@@ -100,6 +100,7 @@ fn scene(is_line: bool, (m, l): (f64, f64), more: &[String]) -> Scene {
     let viscosity = 0.5 * DOUBLE_SPEED * E_PRIME_PA * RADIUS_M;
     let alpha = l / (E_PRIME_PA * DOUBLE_SPEED.powf(0.25));
     let common = [
+        "numerics.order=second",
         "body_1.surface=none",
         "body_2.surface=none",
         "body_1.surface.kind=smooth",

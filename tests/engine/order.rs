@@ -73,7 +73,7 @@ fn the_order_follows_the_mesh() {
         Plan::new(&scene).unwrap().order
     };
     let by_mesh = "numerics.order=by_mesh";
-    assert_eq!(order(&[]), Order::Second);
+    assert_eq!(order(&["numerics.order=second"]), Order::Second);
     assert_eq!(order(&[by_mesh]), Order::High);
     // A mesh that does not carry the film.
     assert_eq!(order(&[by_mesh, "grid.nodes=65"]), Order::Second);

@@ -170,7 +170,7 @@ fn a_wave_under_four_nodes_is_refused_by_name() {
 
 #[test]
 fn coarse_meshes_are_warned_of() {
-    let slow = plan(&["motion.entrainment_m_s=0.1"]).unwrap();
+    let slow = plan(&["numerics.order=second", "motion.entrainment_m_s=0.1"]).unwrap();
     let mesh = slow.warnings.iter().find_map(|warning| match warning {
         Warning::CoarseForTheFilm { error } => Some(*error),
         _ => None,
@@ -242,7 +242,8 @@ fn events_keep_time_marching() {
 #[test]
 fn long_steps_are_warned_of_with_the_length_that_is_advised() {
     let advised = |settings: &[&str]| {
-        let plan = plan(settings).unwrap();
+        // Of high order fewer steps a wave do.
+        let plan = plan(&[&["numerics.order=second"], settings].concat()).unwrap();
         plan.warnings.iter().find_map(|warning| match warning {
             Warning::LongStep { advised, .. } => Some((*advised, warning.to_string())),
             _ => None,

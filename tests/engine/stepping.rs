@@ -7,13 +7,14 @@ use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
 use asperity_engine::sim::{Rhythm, Simulation, State, Summary};
 
-const SMALL: [&str; 6] = [
+const SMALL: [&str; 7] = [
     "grid.nodes=65",
     "life=none",
     "stress=none",
     "record=none",
     "body_1.surface.kind=smooth",
     "body_2.surface.amplitude_m=3e-7",
+    "numerics.order=second",
 ];
 
 fn simulation(sets: &[&str]) -> Simulation {

@@ -4,5 +4,6 @@ mod bands;
 #[path = "../common/engine.rs"]
 mod common;
 mod discretisation;
+mod phases;
 mod rungs;
 mod session;

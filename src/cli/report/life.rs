@@ -80,6 +80,14 @@ fn add_models(lines: &mut Lines, s: &Summary) {
             format!("body 1 {}, body 2 {}{system}", four(one), four(two)),
         );
     }
+    if let Some((low, high)) = s.life_phases_low.zip(s.life_phases_high) {
+        let what = format!(
+            "{} to {} as the crests of both bodies happen to meet, of which nothing is asked (phase_deg); the band holds it",
+            four(low),
+            four(high)
+        );
+        lines.add("phases", what);
+    }
     let spread = s.life_models_low.zip(s.life_models_high);
     if let (Some((low, high)), Some(count @ 2..)) = (spread, s.life_models) {
         let (low, high) = (four(low), four(high));

@@ -44,7 +44,7 @@ const SURFACE: &[Key] = &[
     key("wavelength_x_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wx, at least 4 nodes; inf: longitudinal ridges"),
     key("wavelength_y_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wy, at least 4 nodes; inf: transverse ridges"),
     key("angle_deg", "degrees", Number(-360.0, 360.0), Defaulted, "angle of x' from the rolling direction x"),
-    key("phase_deg", "degrees", Number(-360.0, 360.0), Defaulted, "phase of the wave along x' at t = 0, x = 0"),
+    key("phase_deg", "degrees", Number(-360.0, 360.0), Defaulted, "phase of the wave along x' at t = 0, x = 0; where both bodies have 0 none is asked for, and a run at S = 0 bands its life over eight"),
 ];
 
 /// Every table of a scene in the order in which it is printed.

@@ -84,6 +84,8 @@ struct Numbers {
     /// Own cycles, peaks, traction, basis.
     factors: [f64; 4],
     load_factor: f64,
+    /// Whether the band holds the phases too.
+    with_phases: bool,
     body: u8,
     is_calibrated: bool,
 }
@@ -116,6 +118,7 @@ impl Frame {
                 life.basis(),
             ],
             load_factor: life.load_factor,
+            with_phases: false,
             body: detail.body,
             is_calibrated: detail.cycles.is_some(),
         };
@@ -139,6 +142,7 @@ impl Summary {
                 basis,
             ],
             load_factor: self.load_factor?,
+            with_phases: self.life_phases_low.is_some(),
             body: self.life_body?,
             is_calibrated: self.life_cycles.is_some(),
         };
@@ -171,8 +175,13 @@ impl Numbers {
         } else {
             String::new()
         };
+        let band = if self.with_phases {
+            "band over mesh and phases"
+        } else {
+            "numerical band"
+        };
         format!(
-            "{} of smooth rolling at its own load; numerical band {}; choices of count and model {}{paper}{common}",
+            "{} of smooth rolling at its own load; {band} {}; choices of count and model {}{paper}{common}",
             sig(self.life, 3),
             range(self.band),
             range(self.models)
@@ -209,6 +218,11 @@ impl Numbers {
             ..10.0 => "as an order of magnitude; compare, do not predict",
             _ => "in its direction alone",
         };
+        let what = if self.with_phases {
+            "mesh, time step and phases"
+        } else {
+            "mesh and time step"
+        };
         let absolute = if self.is_calibrated {
             ""
         } else {
@@ -223,7 +237,7 @@ impl Numbers {
         let caution = cautions.iter().find(other);
         let caution = caution.map_or_else(String::new, |one| format!("; {}", one.text));
         format!(
-            "{use_it}: mesh and time step x {} either way, count and model x {}{absolute}{caution}",
+            "{use_it}: {what} x {} either way, count and model x {}{absolute}{caution}",
             sig(mesh, 3),
             sig(models, 3)
         )
@@ -307,7 +321,7 @@ mod tests {
         let told = frame.headline().expect("a life");
         assert!(
             told.life
-                .ends_with("; 5.00e-3 at the load and speed that the run began with"),
+                .ends_with("; 0.00500 at the load and speed that the run began with"),
             "{}",
             told.life
         );

@@ -120,6 +120,12 @@ pub struct Summary {
     pub life_relative_low: Option<f64>,
     /// Upper end of its band.
     pub life_relative_high: Option<f64>,
+    /// Least life over the phases between both bodies' waves at S = 0, where the scene asks for none; the band holds it.
+    #[serde(default)]
+    pub life_phases_low: Option<f64>,
+    /// Greatest.
+    #[serde(default)]
+    pub life_phases_high: Option<f64>,
     /// Life at the scene's probability of survival over that at 50 %.
     pub survival_ratio: Option<f64>,
     /// Greatest effective stress of the last passage, Pa.
