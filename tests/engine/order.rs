@@ -75,6 +75,13 @@ fn the_order_follows_the_mesh() {
     let by_mesh = "numerics.order=by_mesh";
     assert_eq!(order(&["numerics.order=second"]), Order::Second);
     assert_eq!(order(&[by_mesh]), Order::High);
+    // Steps that are long beside the contact: the same film on 33 nodes comes out twice as thick.
+    let long = [by_mesh, "motion.entrainment_m_s=2", "grid.nodes=33"];
+    assert_eq!(order(&long), Order::High);
+    assert_eq!(
+        order(&[&long[..], &["time.step_nodes=4"]].concat()),
+        Order::Second
+    );
     // A mesh that does not carry the film.
     assert_eq!(order(&[by_mesh, "grid.nodes=65"]), Order::Second);
     assert_eq!(

@@ -9,7 +9,7 @@ use asperity_engine::scene::{Event, Override, Scene};
 use asperity_engine::sim::{Frame, Simulation, Summary};
 
 /// Waves that 65 nodes carry, of which both bodies have the same: the passage repeats.
-const ROUGH: [&str; 10] = [
+const ROUGH: [&str; 11] = [
     "grid.nodes=65",
     "stress.depths=12",
     "life.damage_map=off",
@@ -19,6 +19,8 @@ const ROUGH: [&str; 10] = [
     "body_1.surface.amplitude_m=3e-7",
     "body_2.surface.amplitude_m=3e-7",
     "body_1.surface.phase_deg=0",
+    // By mesh a run that begins at five times the speed takes the other order.
+    "numerics.order=second",
     "time.passages=6",
 ];
 /// Depths enough for models that look at the worst of them: of 12, τ0^c of a turned load errs by 4 %.

@@ -10,7 +10,7 @@ use crate::physics::film_regression;
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
 use crate::scene::{
-    ContactKind, EyringFlow, Knob, Order, Rheology, Scene, Spread, Surface, SurfaceKind,
+    ContactKind, EyringFlow, Knob, Order, OrderAsked, Rheology, Scene, Spread, Surface, SurfaceKind,
 };
 
 /// What the regression formulas say of a film.
@@ -162,10 +162,22 @@ pub(super) fn maximum_size(scene: &Scene) -> f64 {
     scene.kind().size_ratio(most / own)
 }
 
+/// Longest step, a, that high order is taken with by the mesh: 33 nodes with steps of 3 and 4 nodes (.42 and .56 a) make a smooth
+/// film of 695 nm 1.6 and 2.0 times as thick, of second order 0.56 and 0.82 times. At .28 a high order errs less (65 nodes,
+/// steps of 4: 1.11 against 0.43).
+const LONGEST_HIGH_STEP_A: f64 = 0.3;
+
 /// Order of the discretisation; without a film that of the deflection.
 pub(super) fn order(scene: &Scene, film: Option<&FilmPlan>, domain: &Domain) -> Order {
-    let dry = scene.numerics.order.order(false);
-    film.map_or(dry, |film| film.truncation().order(domain.dx_a()))
+    let asked = scene.numerics.order;
+    let is_long = scene.time.step_nodes * domain.dx_a() > LONGEST_HIGH_STEP_A;
+    match (asked, film) {
+        (_, None) => asked.order(false),
+        (OrderAsked::ByMesh, Some(_)) if is_long => Order::Second,
+        (OrderAsked::Second | OrderAsked::High | OrderAsked::ByMesh, Some(film)) => {
+            film.truncation().order(domain.dx_a())
+        }
+    }
 }
 
 /// A time step that costs film: longer than a node, or than a sixteenth of a wave that passes (a twelfth where time is of

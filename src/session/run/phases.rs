@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! r_k = life(phase k)/life(the scene's phase)     k·45 degrees, one mesh
-//! band = life_low · min r … life_high · max r     of the run's own mesh
+//! band = life_low · min r/ε … life_high · max r ε   ε: what this mesh is off at the scene's phase
 //! ```
 //! Only where the scene asks for no phase: both `phase_deg` are 0. Who wants crest on crest writes 360.
 
@@ -69,10 +69,11 @@ pub fn over_phases(
     let ratios = || lives.iter().map(|life| life / own);
     let (least, most) = (ratios().fold(1.0, f64::min), ratios().fold(1.0, f64::max));
     let life = summary.life_relative?;
+    let off = (life / own).ln().abs().exp();
     summary.life_phases_low = Some(life * least);
     summary.life_phases_high = Some(life * most);
-    summary.life_relative_low = summary.life_relative_low.map(|low| low * least);
-    summary.life_relative_high = summary.life_relative_high.map(|high| high * most);
+    summary.life_relative_low = summary.life_relative_low.map(|low| low * least / off);
+    summary.life_relative_high = summary.life_relative_high.map(|high| high * most * off);
     *summary = std::mem::take(summary).with_cycles_band();
     Some(phases.len())
 }

@@ -91,5 +91,5 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("click", "on the map: read values"),
     ("click", "on the trace: follow it"),
     ("click", "on life against S: go there"),
-    ("click", "on a key in the last line, an answer"),
+    ("click", "on a key below, on an answer"),
 ];

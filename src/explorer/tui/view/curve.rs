@@ -94,7 +94,7 @@ fn draw(
 /// Its name and what the marks mean, and how far a sweep is: in the corner, or below it.
 fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
     let theme = app.view.theme;
-    let legend = |words: [&'static str; 2]| {
+    let legend = |words: [&'static str; 2], other: &'static str| {
         let mut spans = vec![
             theme.span("y ", Role::Key),
             theme.span(format!("{} ", figure.name), Role::Title),
@@ -108,15 +108,16 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
         }
         if !figure.other.is_empty() {
             let mark = Span::styled(theme.pick("∘ ", "x "), theme.style(Role::Cycles));
-            spans.extend([mark, theme.span(figure.other_name, Role::Dim)]);
+            spans.extend([mark, theme.span(other, Role::Dim)]);
         }
         Line::from(spans)
     };
-    let full = legend(["formula ", "simulated "]);
+    let [other, short] = figure.other_name;
+    let full = legend(["formula ", "simulated "], other);
     let heading = if full.width() <= usize::from(area.width) {
         full
     } else {
-        legend(["form. ", "sim. "])
+        legend(["form. ", "sim. "], short)
     };
     put(area, 0, &heading, buffer);
     let Some((done, all)) = app.lives.sweep else {

@@ -26,9 +26,9 @@ pub(super) struct CurveFigure {
     pub(super) formula: Vec<(f64, f64)>,
     /// What was simulated, with the ends of its band.
     pub(super) points: Vec<CurvePoint>,
-    /// The same by the other count, and whose that is.
+    /// The same by the other count, and whose that is, in full and short.
     pub(super) other: Vec<(f64, f64)>,
-    pub(super) other_name: &'static str,
+    pub(super) other_name: [&'static str; 2],
     /// Where the knob is.
     pub(super) knob: f64,
     /// The number that leads now.
@@ -114,8 +114,8 @@ fn life(app: &App) -> CurveFigure {
         points,
         other,
         other_name: match cycles {
-            Some(CycleBasis::Damage) | None => "Pu",
-            Some(CycleBasis::Global | CycleBasis::Peaks) => "dam.",
+            Some(CycleBasis::Damage) | None => ["Pu et al. 2016", "Pu"],
+            Some(CycleBasis::Global | CycleBasis::Peaks) => ["by damage", "D"],
         },
         knob,
         now,
