@@ -200,6 +200,13 @@ impl Counting {
         self.trackers[body.index()].look_at(x, k);
     }
 
+    /// Shows a point of this body from the beginning on, unless somebody has chosen one.
+    pub(super) fn begin_with(&mut self, body: BodyId) {
+        if !self.is_chosen && body != self.shown_body {
+            self.show(body, None, self.shown_depth);
+        }
+    }
+
     /// Shows a point of the body that governs a life, unless somebody has chosen one. Where both live nearly alike, the one that
     /// is shown stays.
     pub(super) fn look_at_governing(&mut self, life: &LifeEstimate) {

@@ -252,6 +252,19 @@ impl Simulation {
         counting.look_at(body, x, nearest.unwrap_or(0));
     }
 
+    /// Shows a material point of body 1 or 2 from the beginning on, as a run on a coarser mesh has found that it governs; one
+    /// that somebody has chosen stays.
+    pub fn expect_governing(&mut self, body: u8) {
+        let body = match body {
+            1 => BodyId::One,
+            2 => BodyId::Two,
+            _ => return,
+        };
+        if let Some(counting) = &mut self.state.counting {
+            counting.begin_with(body);
+        }
+    }
+
     /// Starts from the end of `neighbour`, a run of the same scene but for the slide-to-roll ratio and the
     /// amplitudes, in place of the start-up.
     ///

@@ -138,6 +138,8 @@ impl Driver {
         let lower = self.climb.launch.take();
         let mut sim = ladder.simulation(mesh, lower.as_ref(), self.threads)?;
         sim.count_from(stats)?;
+        let governs = self.climb.below.as_ref().and_then(|below| below.life_body);
+        sim.expect_governing(governs.unwrap_or(0));
         Ok(sim)
     }
 
