@@ -8,7 +8,8 @@ use asperity_engine::observe::{Claim, ObserveError, Overwrite, leftovers};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::Scene;
 use asperity_session::run::{
-    Checkpoint, Command, Companion, End, Ending, Outcome, Request, Session, over_phases,
+    Checkpoint, Command, Companion, End, Ending, Outcome, Request, Session, asks_for_no_phase,
+    over_phases,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -92,7 +93,10 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         let (scene, threads) = (&prepared.scene, args.threads());
         let errors = estimate_errors(scene, &plan, threads, &mut outcome, &interrupt);
         if let (End::Done, Some(summary)) = (&outcome.end, &mut outcome.summary) {
-            over_phases(scene, &plan, threads, summary);
+            if asks_for_no_phase(scene) {
+                tell("S = 0 and no phase is asked for: eight runs on the first mesh for the band");
+            }
+            over_phases(scene, &plan, threads, summary, &interrupt);
         }
         errors
     } else {

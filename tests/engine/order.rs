@@ -76,7 +76,13 @@ fn the_order_follows_the_mesh() {
     assert_eq!(order(&["numerics.order=second"]), Order::Second);
     assert_eq!(order(&[by_mesh]), Order::High);
     // Steps that are long beside the contact: the same film on 33 nodes comes out twice as thick.
-    let long = [by_mesh, "motion.entrainment_m_s=2", "grid.nodes=33"];
+    let long = [
+        by_mesh,
+        "motion.entrainment_m_s=2",
+        "grid.nodes=33",
+        "body_1.surface.kind=smooth",
+        "body_2.surface.kind=smooth",
+    ];
     assert_eq!(order(&long), Order::High);
     assert_eq!(
         order(&[&long[..], &["time.step_nodes=4"]].concat()),

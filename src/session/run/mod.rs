@@ -41,7 +41,7 @@ pub use handle::{RunHandle, Status};
 pub use ladder::{Climb, Ladder, Mesh};
 pub use outcome::{End, Outcome, Unconverged};
 pub use outputs::{Activity, Switch, Watcher, WatcherStatus};
-pub use phases::over_phases;
+pub use phases::{asks_for_no_phase, over_phases};
 pub use request::{Ending, Request};
 pub use session::{RunError, Session};
 pub use settled::Settled;

@@ -8,6 +8,7 @@
 //! Only where the scene asks for no phase: both `phase_deg` are 0. Who wants crest on crest writes 360.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::crew::share_out;
 use super::ladder::Ladder;
@@ -19,7 +20,7 @@ use asperity_engine::sim::{Simulation, Summary};
 const PHASES: [f64; 7] = [45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0];
 
 /// Whether the life of a run hangs on a phase that nobody has asked for.
-fn is_open(scene: &Scene) -> bool {
+pub fn asks_for_no_phase(scene: &Scene) -> bool {
     let waves = scene.surfaces().iter().all(|surface| match surface {
         Surface::Sinusoid {
             amplitude_m,
@@ -31,8 +32,8 @@ fn is_open(scene: &Scene) -> bool {
     waves && scene.life.is_some() && scene.motion.slide_roll == 0.0 && scene.events.is_empty()
 }
 
-/// The life of a run of the scene with another phase of body 1.
-fn life(scene: &Scene, phase: f64) -> Option<f64> {
+/// The life of a run of the scene with another phase of body 1; `None`: it does not get through, or somebody said stop.
+fn life(scene: &Scene, phase: f64, stop: &AtomicBool) -> Option<f64> {
     let mut scene = scene.clone();
     if let Surface::Sinusoid { phase_deg, .. } = &mut scene.body_1.surface {
         *phase_deg = phase;
@@ -40,6 +41,9 @@ fn life(scene: &Scene, phase: f64) -> Option<f64> {
     let mut sim = Simulation::new(&scene, Plan::new(&scene).ok()?, 1).ok()?;
     while !sim.is_done() {
         sim.step().ok()?;
+        if stop.load(Ordering::Relaxed) {
+            return None;
+        }
     }
     sim.summary().life_relative
 }
@@ -51,8 +55,9 @@ pub fn over_phases(
     plan: &Plan,
     threads: usize,
     summary: &mut Summary,
+    stop: &AtomicBool,
 ) -> Option<usize> {
-    if !is_open(scene) {
+    if !asks_for_no_phase(scene) {
         return None;
     }
     let ladder = Ladder::of(scene, plan);
@@ -61,7 +66,7 @@ pub fn over_phases(
     let lives = share_out(
         &phases,
         threads,
-        |phase| life(coarse, *phase),
+        |phase| life(coarse, *phase, stop),
         &mut |_, _| {},
     );
     let lives: Vec<f64> = lives.into_iter().collect::<Option<_>>()?;
