@@ -1,6 +1,7 @@
 //! `asperity run`: a scene without a screen.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -92,12 +93,7 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     let errors = if is_plain {
         let (scene, threads) = (&prepared.scene, args.threads());
         let errors = estimate_errors(scene, &plan, threads, &mut outcome, &interrupt);
-        if let (End::Done, Some(summary)) = (&outcome.end, &mut outcome.summary) {
-            if asks_for_no_phase(scene) {
-                tell("S = 0 and no phase is asked for: eight runs on the first mesh for the band");
-            }
-            over_phases(scene, &plan, threads, summary, &interrupt);
-        }
+        band_over_phases(scene, &plan, threads, &mut outcome, &interrupt);
         errors
     } else {
         "not estimated: knobs were turned by hand, or the recording ends early".to_owned()
@@ -203,6 +199,23 @@ fn estimate_errors(
     match compared {
         Ok((nodes, wall_s)) => report::errors(summary, nodes, Some(wall_s)),
         Err(reason) => format!("not estimated: {reason}"),
+    }
+}
+
+/// Widens the band of a life that hangs on a phase which nobody has asked for.
+fn band_over_phases(
+    scene: &Arc<Scene>,
+    plan: &Plan,
+    threads: usize,
+    outcome: &mut Outcome,
+    interrupt: &AtomicBool,
+) {
+    let (End::Done, Some(summary)) = (&outcome.end, &mut outcome.summary) else {
+        return;
+    };
+    if asks_for_no_phase(scene) {
+        tell("S = 0 and no phase is asked for: eight runs on the first mesh for the band");
+        over_phases(scene, plan, threads, summary, interrupt);
     }
 }
 
