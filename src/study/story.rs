@@ -148,32 +148,21 @@ pub fn shown(told: &[Told]) -> Option<[f64; 2]> {
     Some([fall, rise])
 }
 
+/// Life and band on a mesh of the ladder; of a run on one mesh, its own.
 fn life(told: &Told, rung: usize) -> String {
     let s = &told.summary;
-    let own = || {
-        Some([
-            s.life_relative?,
-            s.life_relative_low?,
-            s.life_relative_high?,
-        ])
+    let (mesh, numbers) = match s.rungs.get(rung) {
+        Some(r) => (
+            format!("{}²: ", r.nodes),
+            [r.life_relative, r.life_relative_low, r.life_relative_high],
+        ),
+        None if rung == 0 => (
+            String::new(),
+            [s.life_relative, s.life_relative_low, s.life_relative_high],
+        ),
+        None => return "-".to_owned(),
     };
-    let numbers = match s.rungs.get(rung) {
-        Some(r) => [r.life_relative, r.life_relative_low, r.life_relative_high]
-            .into_iter()
-            .collect::<Option<Vec<f64>>>()
-            .map(|list| (r.nodes, list)),
-        None if s.rungs.is_empty() && rung == 0 => own().map(|list| (0, list.to_vec())),
-        None => None,
-    };
-    let Some((nodes, numbers)) = numbers else {
-        return "-".to_owned();
-    };
-    let mesh = if nodes == 0 {
-        String::new()
-    } else {
-        format!("{nodes}²: ")
-    };
-    let [life, low, high] = [numbers[0], numbers[1], numbers[2]].map(|value| figure(Some(value)));
+    let [life, low, high] = numbers.map(figure);
     format!("{mesh}{life} ({low} to {high})")
 }
 

@@ -25,6 +25,9 @@ const PRESETS: [(&str, &str, [f64; 3], u32); 5] = [
 ];
 
 struct Row {
+    load_factor: f64,
+    p_hertz_pa: f64,
+    a_m: f64,
     common: f64,
     calibrated: f64,
     relative: f64,
@@ -45,7 +48,12 @@ fn rows(preset: &str, nodes: u32, key: &str, values: [f64; 3]) -> Vec<Row> {
         column("life_cycles"),
         column("life_relative"),
     );
+    let (load_factor, p_hertz_pa, a_m) =
+        (column("load_factor"), column("p_hertz_pa"), column("a_m"));
     let row = |k: usize| Row {
+        load_factor: load_factor[k],
+        p_hertz_pa: p_hertz_pa[k],
+        a_m: a_m[k],
         common: common[k],
         calibrated: calibrated[k],
         relative: relative[k],
@@ -102,6 +110,27 @@ fn lives_of_a_sweep_have_the_order_that_a_calibration_point_gives() {
                 (base.common / base.relative - 1.0).abs() < 1e-9,
                 "{preset} {key}"
             );
+            // Of one shape, as Hertz has it: pressure to the power of c, and the stressed volume.
+            let is_line = scene.contact.ry_m.is_none();
+            if is_line || key != "contact.rx_m" {
+                let (lengths, weibull_slope) = if is_line {
+                    (2.0, 9.0 / 8.0)
+                } else {
+                    (3.0, 10.0 / 9.0)
+                };
+                for row in &rows {
+                    let stress = (row.p_hertz_pa / base.p_hertz_pa).powf(-31.0 / 3.0);
+                    let hertz = stress * (row.a_m / base.a_m).powf(-lengths / weibull_slope);
+                    println!(
+                        "  load factor {:.4e}, by Hertz {hertz:.4e}",
+                        row.load_factor
+                    );
+                    assert!(
+                        (row.load_factor / hertz).ln().abs() < SPIKE,
+                        "{preset} {key}"
+                    );
+                }
+            }
         }
     }
     // What the pictures showed before: not the same.

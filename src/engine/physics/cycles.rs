@@ -68,6 +68,13 @@ impl BodyId {
     /// Both.
     pub const BOTH: [Self; 2] = [Self::One, Self::Two];
 
+    /// Body 1 or 2, as files and screens have it; `None`: there is no such body.
+    pub fn of(number: u8) -> Option<Self> {
+        Self::BOTH
+            .into_iter()
+            .find(|body| body.index() + 1 == usize::from(number))
+    }
+
     /// 0 or 1.
     pub fn index(self) -> usize {
         match self {

@@ -210,10 +210,8 @@ impl Counting {
     /// Shows a point of the body that governs a life, unless somebody has chosen one. Where both live nearly alike, the one that
     /// is shown stays.
     pub(super) fn look_at_governing(&mut self, life: &LifeEstimate) {
-        let body = match life.detail.body {
-            1 => BodyId::One,
-            2 => BodyId::Two,
-            _ => return,
+        let Some(body) = BodyId::of(life.detail.body) else {
+            return;
         };
         let shown = life.detail.life_body[self.shown_body.index()];
         let is_clear = shown.is_none_or(|shown| shown > ALIKE * life.life_relative);

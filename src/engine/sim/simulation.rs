@@ -241,11 +241,7 @@ impl Simulation {
         let depths = self.work.stress.as_ref().map_or(&[][..], |s| s.depths());
         let away = |k: usize| (self.plan.scaling.m_from_x(depths[k]) - follow.depth_m).abs();
         let nearest = (0..depths.len()).min_by(|&one, &two| away(one).total_cmp(&away(two)));
-        let body = if follow.body == 2 {
-            BodyId::Two
-        } else {
-            BodyId::One
-        };
+        let body = BodyId::of(follow.body).unwrap_or_default();
         let x = follow
             .x_m
             .map(|x_m| self.plan.scaling.heading.sign() * x_m / self.plan.scaling.a_m);
@@ -255,12 +251,7 @@ impl Simulation {
     /// Shows a material point of body 1 or 2 from the beginning on, as a run on a coarser mesh has found that it governs; one
     /// that somebody has chosen stays.
     pub fn expect_governing(&mut self, body: u8) {
-        let body = match body {
-            1 => BodyId::One,
-            2 => BodyId::Two,
-            _ => return,
-        };
-        if let Some(counting) = &mut self.state.counting {
+        if let (Some(body), Some(counting)) = (BodyId::of(body), &mut self.state.counting) {
             counting.begin_with(body);
         }
     }

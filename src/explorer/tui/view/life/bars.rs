@@ -133,8 +133,7 @@ pub(super) fn mechanisms(app: &App, rows: &mut RowAllotment, buffer: &mut Buffer
         from = to;
     }
     if (basis - 1.0).abs() > 1e-6 {
-        let words = format!("  and ×{}: in cycles of the faster body", sig(basis, 3));
-        put(rows.take(1), 0, &theme.line(words, Role::Dim), buffer);
+        unit_of_cycles(theme, basis, rows.take(1), buffer);
     }
     let turned = factors[3].1.is_some_and(|load| load.ln().abs() > 0.01);
     if rows.rest.height >= 16 || turned {
@@ -147,6 +146,19 @@ fn basis(app: &App) -> f64 {
     match (app.leading(), app.life()) {
         (Leading::Simulated | Leading::Settling, Some(life)) => life.basis(),
         _ => 1.0,
+    }
+}
+
+/// The change of unit, which is in the life and in no bar.
+fn unit_of_cycles(theme: Theme, basis: f64, row: Rect, buffer: &mut Buffer) {
+    let basis = sig(basis, 3);
+    let forms = [
+        format!("  and ×{basis}: cycles of the faster body"),
+        format!("  ×{basis}: the faster's cycles"),
+        format!("  basis ×{basis}"),
+    ];
+    if let Some(words) = fitting(forms.iter().map(String::as_str), usize::from(row.width)) {
+        put(row, 0, &theme.line(words, Role::Dim), buffer);
     }
 }
 
