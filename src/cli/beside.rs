@@ -111,6 +111,7 @@ fn put_together(
         sig(beside.apart_steps, 2),
         sig(GPA.of(beside.difference_pa), 3),
     );
-    super::scenes::print(&text)?;
+    let lives = beside.lives.iter().map(|life| format!("{life}\n"));
+    super::scenes::print(&lives.fold(text, |text, life| text + &life))?;
     Ok(())
 }

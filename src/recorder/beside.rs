@@ -48,9 +48,59 @@ const SHARED: [&str; 5] = [
     "series/friction",
 ];
 
+/// The life that a run ended with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LifeBeside {
+    /// Name of the run.
+    pub name: String,
+    /// Relative to its own smooth contact.
+    pub own: f64,
+    /// Relative to the first run's; `None`: their models differ, or the recording is older than this number.
+    pub common: Option<f64>,
+}
+
+impl std::fmt::Display for LifeBeside {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let common = (self.common).map_or_else(
+            || "not comparable with the first run's".to_owned(),
+            |life| format!("{} of the first run's smooth contact", sig(life, 3)),
+        );
+        write!(
+            f,
+            "{}: life {} of its own smooth contact, {common}",
+            self.name,
+            sig(self.own, 3)
+        )
+    }
+}
+
+/// Lives that runs ended with, as far as they have any: `life_common = life_relative life_smooth/life_smooth(first)`.
+fn lives(runs: &[KeyedRun]) -> Vec<LifeBeside> {
+    let of = |run: &KeyedRun| {
+        let life = run.steps.last()?.metrics.life?;
+        Some((life.life_relative, life.life_smooth))
+    };
+    let first = runs.first();
+    let base = first.and_then(of).map_or(0.0, |(_, smooth)| smooth);
+    let model = |run: &KeyedRun| run.run.frames.scene.life.clone();
+    let same = |run: &KeyedRun| first.is_some_and(|first| model(first) == model(run));
+    let life = |run: &KeyedRun| {
+        let (own, smooth) = of(run)?;
+        let common = (base > 0.0 && smooth > 0.0 && same(run)).then(|| own * smooth / base);
+        Some(LifeBeside {
+            name: run.run.name.clone(),
+            own,
+            common,
+        })
+    };
+    runs.iter().filter_map(life).collect()
+}
+
 /// What was written.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RunsCompared {
+    /// Lives of the runs that have any.
+    pub lives: Vec<LifeBeside>,
     /// Moments at which all runs are shown.
     pub pictures: u64,
     /// How far a run's picture is from its moment at most, in its own steps.
@@ -109,6 +159,7 @@ pub fn compare(
         exaggeration: None,
         shown: Vec::new(),
         report: RunsCompared {
+            lives: lives(&keyed),
             pictures: moments.len() as u64,
             apart_steps: 0.0,
             difference_pa: 0.0,
@@ -317,7 +368,13 @@ impl Written<'_> {
         let told = format!(
             "# Side by side\n\n{list}\n\nCompared by {by}. Timelines are those of {first}. All runs are shown at {moments} of \
              it, each by its nearest picture, at most {apart} of its own steps away. Colours, ranges and heights are \
-             common to all. The difference is pressure less that of {first}, at most {difference} GPa.\n\n{caution}.\n",
+             common to all. The difference is pressure less that of {first}, at most {difference} GPa.\n\n{lives}{caution}.\n",
+            lives = self
+                .report
+                .lives
+                .iter()
+                .fold(String::new(), |text, life| format!("{text}- {life}\n"))
+                + "\n",
             first = names.first().unwrap_or(&"a"),
             moments = counted(self.report.pictures, "moment"),
             apart = sig(self.report.apart_steps, 2),

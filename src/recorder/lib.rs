@@ -64,7 +64,7 @@ mod tooth;
 mod trace;
 mod view;
 
-pub use beside::{ComparedBy, RunBeside, RunsCompared, compare};
+pub use beside::{ComparedBy, LifeBeside, RunBeside, RunsCompared, compare};
 pub use frames::RecordedFrames;
 pub use live::Live;
 pub use recorder::{Recorder, Server};

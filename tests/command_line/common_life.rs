@@ -139,3 +139,54 @@ fn lives_of_a_sweep_have_the_order_that_a_calibration_point_gives() {
     );
     assert!(misled >= 3);
 }
+
+/// Two loads side by side: the second life against the first one's smooth contact, as Hertz has it (p_h ∝ W^(1/3), I ∝ p_h^(c e) a³).
+#[test]
+fn lives_beside_each_other_have_one_reference() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |sets: &[&str]| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_asperity"))
+            .args([
+                "run",
+                "demonstration_quick",
+                "--force",
+                "--threads=1",
+                "--out=both.rrd",
+            ])
+            .args([
+                "--set=grid.nodes=65",
+                "--set=stress.depths=16",
+                "--passages=0.5",
+            ])
+            .args(sets)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert!(output.status.success());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let after = |text: &str, label: &str| -> f64 {
+        let at = text.find(label).unwrap() + label.len();
+        let word = text[at..].split_whitespace().next().unwrap();
+        word.parse().unwrap()
+    };
+    let told = run(&["--beside=load.force_n=400,800"]);
+    let told = &told[told.find("side by side").unwrap()..];
+    let lines: Vec<&str> = told
+        .lines()
+        .filter(|line| line.contains(": life "))
+        .collect();
+    let [one, two] = lines.as_slice() else {
+        panic!("{told}")
+    };
+    // The first one's reference is its own.
+    assert_eq!(after(one, ": life "), after(one, "contact, "), "{one}");
+    let ratio = after(two, "contact, ") / after(two, ": life ");
+    let hertz = 2_f64.powf(-(31.0 / 3.0 + 2.7) / 3.0);
+    println!("{one}\n{two}\nratio {ratio:.4}, by Hertz {hertz:.4}");
+    assert!((ratio / hertz).ln().abs() < SPIKE, "{ratio} {hertz}");
+    // Lives by two models have none.
+    std::fs::rename(folder.path().join("both.rrd"), folder.path().join("x.rrd")).unwrap();
+    let told = run(&["--beside=life.survival=0.5,0.9"]);
+    assert!(told.contains("not comparable"), "{told}");
+}

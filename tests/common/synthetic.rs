@@ -282,6 +282,7 @@ fn metrics(step: u64, t: f64, p_max_pa: f64, [sigma, depth, x]: [f64; 3]) -> Met
             peak_factor,
             traction_factor: 0.9,
             load_factor: 1.0,
+            life_smooth: 1.0,
             life_relative,
             life_relative_low: life_relative * 0.8,
             life_relative_high: life_relative * 1.25,

@@ -336,6 +336,7 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
             peak_factor,
             traction_factor,
             load_factor: 1.0,
+            life_smooth: 1.0,
             life_relative,
             life_relative_low: 0.8 * life_relative,
             life_relative_high: 1.25 * life_relative,

@@ -66,6 +66,10 @@ pub struct LifeEstimate {
     /// those that the scene began with. `life_relative * load_factor` compares lives at different loads.
     #[serde(default)]
     pub load_factor: f64,
+    /// Life of the smooth contact at the load and speed of now, but for the constant of the model ([`super::Summary::life_smooth`]);
+    /// 0: not known.
+    #[serde(default)]
+    pub life_smooth: f64,
     /// Relative life.
     pub life_relative: f64,
     /// Lower end of the band: of the discretisation error, and of what a mean without a common period still wanders.

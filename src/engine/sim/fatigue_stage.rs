@@ -300,6 +300,7 @@ impl LifeStage {
             peak_factor: f.peak,
             traction_factor: f.traction,
             load_factor: self.load_factor(scene, body, now.size),
+            life_smooth: 0.0,
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,

@@ -345,6 +345,7 @@ pub const CATALOGUE: &[Quantity] = {
         Q::new(["traction_max_pa", "τ max"], Pressure, "greatest shear stress on the surfaces", M(|m| m.traction_max_pa.into())).over(&[(Mean, "traction_max_pa"), (Greatest, "traction_max_greatest_pa")]).by_itself(),
         Q::new(["load_centre_x_m", "x of the load"], Length, "where along x the load acts: its moment resists rolling", M(|m| m.load_centre_x_m.into())),
         Q::new(["life_common", "life at the first load"], Plain, "life over that of the smooth, frictionless contact at S = 0 at the load and speed that the scene began with", L(|l| l.life_common().into())),
+        Q::new(["life_smooth", "life of the smooth contact"], Plain, "life of the smooth, frictionless contact at S = 0 at the load and speed of now, but for the constant of the model; the ratio of two is that of their lives", L(|l| l.life_smooth.into())),
     ]
 };
 

@@ -190,7 +190,13 @@ pub(super) fn life_estimate(plan: &SimPlan, state: &State) -> Option<LifeEstimat
         stress_error: stress_error_now(plan, state),
         has_reference: has_reference_of_now(plan, state),
     };
-    state.life.as_ref()?.estimate(&now, state.counting.as_ref())
+    let stage = state.life.as_ref()?;
+    let life = stage.estimate(&now, state.counting.as_ref())?;
+    let life_smooth = stage.smooth_life(&plan.decided.hertz, size);
+    Some(LifeEstimate {
+        life_smooth: life_smooth.unwrap_or(0.0),
+        ..life
+    })
 }
 
 /// Roughness, traction and slice of the state's step, which follow from it.
