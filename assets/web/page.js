@@ -7,7 +7,7 @@ const FIRST_NAMED = 0x110000;
 const at = (id) => document.getElementById(id);
 const screen_ = at("screen");
 const painter = new Painter(screen_);
-const state = { firstLifeMs: null, spoken: "", steps: 0, seconds: 0, bytes: 0, nodes: 129, link: "", broken: null, refused: null };
+const state = { firstLifeMs: null, spoken: "", steps: 0, seconds: 0, bytes: 0, nodes: 129, link: "", lesson: "", broken: null, refused: null };
 let worker = null;
 let isInstead = false;
 
@@ -79,7 +79,10 @@ function hear(event) {
       at("again").focus();
     }
   }
-  if (m.spoken !== undefined) news(m);
+  if (m.spoken !== undefined) {
+    news(m);
+    teach(m.lesson);
+  }
   if (m.file) {
     const end = m.file.indexOf("\n");
     save(m.file.slice(0, end), m.file.slice(end + 1));
@@ -106,6 +109,26 @@ function news(m) {
   if (location.hash !== hash && !/lesson=/.test(location.hash)) {
     try { history.replaceState(null, "", hash); } catch { /* some places keep their address */ }
   }
+}
+
+// What a lesson says, for who hears it; its answers as buttons.
+function teach(lesson) {
+  if (lesson === state.lesson) return;
+  state.lesson = lesson;
+  const [title, words, ...answers] = lesson.split("\n");
+  at("lesson").hidden = !lesson;
+  // Numbers of a running lesson change all the time: what it says is told once.
+  const said = lesson ? `Lesson ${title}. ${words.replace(/\s{3,}.*$/, "")} ${answers.map((answer, k) => `${k + 1}: ${answer}.`).join(" ")}` : "";
+  if (at("said").textContent !== said) at("said").textContent = said;
+  const old = [...at("answers").children].map((button) => button.textContent);
+  const texts = answers.map((answer, k) => `${k + 1} ${answer}`);
+  if (old.join("\n") === texts.join("\n")) return;
+  at("answers").replaceChildren(...texts.map((text, k) => {
+    const button = document.createElement("button");
+    button.textContent = text;
+    button.addEventListener("click", () => { press(String(k + 1), 0); screen_.focus(); });
+    return button;
+  }));
 }
 
 function open() {

@@ -320,6 +320,16 @@ fn one_key_counts_the_other_way_and_back() {
     );
 }
 
+/// The knobs of the first lesson's scene.
+fn of_lesson_1() -> State {
+    State {
+        speed_m_s: 0.2,
+        amplitude_1_m: 5e-7,
+        amplitude_2_m: 0.0,
+        ..State::default()
+    }
+}
+
 #[test]
 fn what_was_answered_right_is_said() {
     let mut app = running(plain());
@@ -330,7 +340,7 @@ fn what_was_answered_right_is_said() {
     let state = |slide_roll: f64| State {
         slide_roll,
         slide_roll_target: slide_roll,
-        ..State::default()
+        ..of_lesson_1()
     };
     play(&mut app, 1..=200, &state(0.0));
     assert!(text(&app, 80, 24).contains("Right: counted₁ 0.800"));
@@ -343,6 +353,41 @@ fn what_was_answered_right_is_said() {
         told.contains("You said “once”; it is counted₁ 3.73"),
         "{told}"
     );
+}
+
+/// A number of another experiment is no verdict, and neither is one that is taken while a knob is under way.
+#[test]
+fn a_verdict_waits_for_the_knobs_and_refuses_foreign_ones() {
+    let mut app = running(plain());
+    app.apply(Action::Lessons);
+    app.apply(Action::Enter);
+    let own = staged(&app.apply(Action::Typical(1)));
+    app.rebuilt(setup_of(own));
+    let at = |slide_roll, slide_roll_target| State {
+        slide_roll,
+        slide_roll_target,
+        ..of_lesson_1()
+    };
+    // Still rolling to a stop, long after its passages.
+    play(&mut app, 1..=400, &at(0.1, 0.0));
+    assert!(!text(&app, 160, 48).contains("it is"), "on the way");
+    app.apply(Action::NextBeat);
+    assert!(text(&app, 160, 48).contains("still on their way"));
+    // Somebody turns S.
+    app.apply(Action::Turn(1));
+    play(&mut app, 401..=500, &at(0.05, 0.05));
+    let told = text(&app, 160, 48);
+    assert!(
+        told.contains("No verdict: S slide-to-roll was turned"),
+        "{told}"
+    );
+    assert!(!told.contains("You said"), "{told}");
+    // The question comes again, and its answer puts the knob back.
+    app.apply(Action::PreviousBeat);
+    app.apply(Action::Typical(1));
+    play(&mut app, 501..=900, &at(0.0, 0.0));
+    let told = text(&app, 160, 48);
+    assert!(told.contains("You said"), "{told}");
 }
 
 /// The sixth lesson's first beat asks nothing: it moves on by time, but not while the run stands.

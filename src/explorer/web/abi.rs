@@ -190,6 +190,12 @@ pub extern "C" fn spoken() {
     give(on_page(|page| page.spoken().into_bytes()).unwrap_or_default());
 }
 
+/// What the lesson says now, in lines: its title, its words, the answers it waits for; nothing without a lesson.
+#[unsafe(no_mangle)]
+pub extern "C" fn lesson() {
+    give(on_page(|page| page.lesson().into_bytes()).unwrap_or_default());
+}
+
 /// The link to what is shown now.
 #[unsafe(no_mangle)]
 pub extern "C" fn link() {

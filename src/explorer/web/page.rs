@@ -207,6 +207,17 @@ impl WebPage {
         words
     }
 
+    /// The lesson that is on: lines of its title, its words, and the answers that it waits for; nothing without one.
+    pub(super) fn lesson(&self) -> String {
+        let Some(lesson) = view::lesson(&self.explorer.app) else {
+            return String::new();
+        };
+        let lines = [lesson.title, lesson.words].into_iter();
+        let lines = lines.chain(lesson.answers);
+        let lines: Vec<String> = lines.map(|line| line.replace('\n', " ")).collect();
+        lines.join("\n")
+    }
+
     /// The link to what is shown now.
     pub(super) fn link(&self) -> String {
         written(&self.explorer.app, self.nodes, &self.keys.borrow())
@@ -317,6 +328,7 @@ mod tests {
     #![expect(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct};
+    use asperity_engine::sim::CautionCode;
 
     fn page(link: &str) -> WebPage {
         let mut page = WebPage::open(PageLink::read(link).unwrap()).unwrap();
@@ -356,6 +368,53 @@ mod tests {
             page.spoken().split(" S ").next(),
             Some("No simulated life yet.")
         );
+    }
+
+    #[test]
+    fn a_lesson_gives_its_words_and_answers_to_the_page() {
+        let mut page = page("nodes=33");
+        assert_eq!(page.lesson(), "");
+        press(&mut page, KeyName::Char('t'));
+        press(&mut page, KeyName::Enter);
+        let asked = page.lesson();
+        let lines: Vec<&str> = asked.lines().collect();
+        assert!(
+            lines[0].starts_with("1/10") && lines[1].contains("How often"),
+            "{asked}"
+        );
+        assert!(lines.len() >= 4, "{asked}");
+        // What is answered is not asked any more.
+        press(&mut page, KeyName::Char('1'));
+        assert_eq!(page.lesson().lines().count(), 2, "{}", page.lesson());
+        press(&mut page, KeyName::Char('T'));
+        assert_eq!(page.lesson(), "");
+    }
+
+    #[test]
+    fn cautions_are_spoken() {
+        let mut page = page("nodes=65\nstress.depths=8\ntime.step_nodes=2\nstress.depth_max_a=1.2");
+        let said = |page: &WebPage| {
+            page.explorer
+                .app
+                .frame()
+                .map_or_else(Vec::new, |frame| frame.cautions())
+        };
+        until(&mut page, "roughness", |page| {
+            said(page)
+                .iter()
+                .any(|caution| caution.code == CautionCode::CoarseWave)
+        });
+        let cautions = said(&page);
+        let spoken = page.spoken();
+        for code in [CautionCode::LongStep, CautionCode::ShallowStress] {
+            assert!(
+                cautions.iter().any(|caution| caution.code == code),
+                "{code:?}"
+            );
+        }
+        for caution in cautions {
+            assert!(spoken.contains(&caution.text), "{}: {spoken}", caution.text);
+        }
     }
 
     #[test]

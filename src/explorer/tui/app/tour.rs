@@ -1,10 +1,12 @@
 //! The lessons: their list, their beats, what they ask and what is then told.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use super::data::{Effect, ErrandKind};
 use super::state::App;
 use crate::tui::action::Action;
+use crate::tui::dial::Dial;
 use crate::tui::kinds::{Overlay, RunPace};
 use crate::tui::lessons::{FoundAnswer, Lesson, TourPhase, TourState};
 use asperity_session::run::Command;
@@ -81,6 +83,10 @@ impl App {
         let tells = tour.beat().question.is_some() && tour.is_shown(passages);
         match tour.phase {
             TourPhase::Asks => self.answer(None),
+            TourPhase::Shows if tells && self.is_turning() => {
+                self.say("the knobs are still on their way");
+                Vec::new()
+            }
             TourPhase::Shows if tells => self.tell(),
             _ if tour.goes_on() => self.begin_beat(tour.place, tour.beat + 1),
             _ => self.begin_beat(tour.place + 1, 0),
@@ -109,7 +115,7 @@ impl App {
         let Some(tour) = &self.lesson.tour else {
             return Vec::new();
         };
-        let shown = tour.is_shown(passages);
+        let shown = tour.is_shown(passages) && !self.is_turning();
         match tour.phase {
             TourPhase::Asks => Vec::new(),
             TourPhase::Shows if shown && tour.beat().question.is_some() => self.tell(),
@@ -119,6 +125,23 @@ impl App {
             }
             _ => Vec::new(),
         }
+    }
+
+    /// Whether a knob is under way to where it was set.
+    fn is_turning(&self) -> bool {
+        let far = |dial: &Dial| (dial.now - dial.target).abs() > 1e-6 * dial.target.abs();
+        self.choice.dials.iter().any(far)
+    }
+
+    /// A knob that does not stand where the beat has put it.
+    fn turned_away(&self) -> Option<&'static str> {
+        let tour = self.lesson.tour.as_ref()?;
+        let dials = self.choice.dials.iter().zip(&tour.set_to);
+        let by_hand = |at: &Option<Duration>| at.is_some_and(|at| at > tour.set_at);
+        let away = |(dial, set): &(&Dial, &f64)| (dial.target - **set).abs() > 1e-6 * set.abs();
+        let mut turned = dials.zip(&self.choice.set_at);
+        let turned = turned.find(|(dial, at)| by_hand(at) && away(dial));
+        turned.map(|((dial, _), _)| dial.label)
     }
 
     /// Whether run and replay stand.
@@ -132,7 +155,7 @@ impl App {
     /// Tells what the simulation found.
     fn tell(&mut self) -> Vec<Effect> {
         let frame = self.frame().map(Arc::clone);
-        let now = self.now;
+        let (now, turned) = (self.now, self.turned_away());
         let Some(tour) = &mut self.lesson.tour else {
             return Vec::new();
         };
@@ -142,9 +165,17 @@ impl App {
         let before = tour.before.as_deref();
         let value = frame.and_then(|frame| question.measure.value(&frame, before));
         let right = value.map(|value| question.right(value));
+        let found = FoundAnswer {
+            turned,
+            value,
+            right,
+        };
         let words = question.because.clone();
-        tour.tell(FoundAnswer { value, right }, now);
-        vec![Effect::Send(Command::Say(words))]
+        tour.tell(found, now);
+        match turned {
+            Some(_) => Vec::new(),
+            None => vec![Effect::Send(Command::Say(words))],
+        }
     }
 
     /// A beat as it begins: its question, or what it shows.
@@ -242,6 +273,10 @@ impl App {
             if dial.checked(value).is_ok() {
                 effects.extend(self.set(place, value));
             }
+        }
+        let set_to = self.choice.dials.iter().map(|dial| dial.target).collect();
+        if let Some(tour) = &mut self.lesson.tour {
+            (tour.set_to, tour.set_at) = (set_to, now);
         }
         effects
     }

@@ -29,6 +29,8 @@ pub enum TourPhase {
 /// What was found of a question.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FoundAnswer {
+    /// A knob that somebody has turned meanwhile: the number is of another experiment.
+    pub turned: Option<&'static str>,
     /// The number; `None`: this scene does not know it.
     pub value: Option<f64>,
     /// The right answer, from 0.
@@ -54,6 +56,10 @@ pub struct TourState {
     since: f64,
     /// When its words were begun to be read.
     read_from: Duration,
+    /// Where it has set the dials; empty: it has not shown yet.
+    pub set_to: Vec<f64>,
+    /// When.
+    pub set_at: Duration,
 }
 
 impl TourState {
@@ -73,6 +79,8 @@ impl TourState {
             before: None,
             since: 0.0,
             read_from: Duration::ZERO,
+            set_to: Vec::new(),
+            set_at: Duration::ZERO,
         }
     }
 

@@ -87,6 +87,37 @@ pub(super) fn of(app: &App) -> Option<Caption> {
     })
 }
 
+/// What a lesson says now, for who hears it, and the answers it takes, for buttons.
+pub struct LessonWords {
+    /// Lesson and beat.
+    pub title: String,
+    /// Its question, or what it shows or tells, with its numbers.
+    pub words: String,
+    /// What answers the question; empty: nothing is asked.
+    pub answers: Vec<String>,
+}
+
+/// The same of the lesson that is on; `None`: there is none.
+pub(super) fn lesson(app: &App) -> Option<LessonWords> {
+    let tour = app.lesson.tour.as_ref()?;
+    let caption = of(app)?;
+    let asked = tour.beat().question.as_ref();
+    let asked = asked.filter(|_| tour.phase == TourPhase::Asks);
+    let words = match asked {
+        Some(question) => question.ask.clone(),
+        None => {
+            let words = caption.words.iter().map(|(text, _)| text.as_str());
+            let words = words.collect::<Vec<_>>().join(" ");
+            format!("{words}{}", caption.figures)
+        }
+    };
+    Some(LessonWords {
+        title: caption.title,
+        words,
+        answers: asked.map_or_else(Vec::new, |question| question.answers.clone()),
+    })
+}
+
 /// What one turns first.
 const BEGIN: &str = "S = 0: both surfaces roll, in step. Press \u{2192}, which turns S, to let them slide past each other, and watch the life.";
 
@@ -116,6 +147,14 @@ fn words(app: &App, tour: &TourState) -> Vec<(String, Role)> {
             }
             words
         }
+        TourPhase::Tells(FoundAnswer {
+            turned: Some(knob), ..
+        }) => vec![(
+            format!(
+                "No verdict: {knob} was turned meanwhile, and this is another experiment. N asks again."
+            ),
+            Role::Warn,
+        )],
         TourPhase::Tells(found) => {
             let (verdict, role) = verdict(app, tour, question, found);
             let because = (question.because.clone(), Role::Text);

@@ -29,6 +29,7 @@ use crate::tui::event::{Pointer, PointerAct};
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
 pub use areas::{Areas, MIN_NARROW_SCREEN, MIN_SCREEN, PanelSpacing};
+pub use caption::LessonWords;
 use place::rows;
 
 /// The panels of the screen as it is now.
@@ -120,6 +121,11 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
         plots.retain(|plot| !plot.area.intersects(over));
     }
     plots
+}
+
+/// What a lesson says now, for who hears it; `None`: there is none.
+pub fn lesson(app: &App) -> Option<LessonWords> {
+    caption::lesson(app)
 }
 
 /// The cells that the terminal's own pixels fill; `None`: none, or something lies over them.
