@@ -10,7 +10,7 @@ use asperity_engine::plan::Plan;
 use asperity_engine::scene::Scene;
 use asperity_session::run::{
     Checkpoint, Command, Companion, End, Ending, Outcome, Request, Session, asks_for_no_phase,
-    over_phases,
+    hangs_on_oil_law, over_oil_laws, over_phases,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -93,7 +93,7 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     let errors = if is_plain {
         let (scene, threads) = (&prepared.scene, args.threads());
         let errors = estimate_errors(scene, &plan, threads, &mut outcome, &interrupt);
-        band_over_phases(scene, &plan, threads, &mut outcome, &interrupt);
+        vary_what_nobody_knows(scene, &plan, threads, &mut outcome, &interrupt);
         errors
     } else {
         "not estimated: knobs were turned by hand, or the recording ends early".to_owned()
@@ -202,8 +202,8 @@ fn estimate_errors(
     }
 }
 
-/// Widens the band of a life that hangs on a phase which nobody has asked for.
-fn band_over_phases(
+/// What a life hangs on that nobody can choose: the phase of surfaces that roll, the law of sheared oil.
+fn vary_what_nobody_knows(
     scene: &Arc<Scene>,
     plan: &Plan,
     threads: usize,
@@ -216,6 +216,10 @@ fn band_over_phases(
     if asks_for_no_phase(scene) {
         tell("S = 0 and no phase is asked for: eight runs on the first mesh for the band");
         over_phases(scene, plan, threads, summary, interrupt);
+    }
+    if hangs_on_oil_law(scene, plan) {
+        tell("the oil is sheared: four runs on the first mesh for the range over its laws");
+        over_oil_laws(scene, plan, threads, summary, interrupt);
     }
 }
 

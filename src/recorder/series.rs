@@ -181,7 +181,16 @@ fn line(code: CautionCode) -> Option<usize> {
         CautionCode::AmplitudeDoubtful
         | CautionCode::MapDoubtful
         | CautionCode::ShortDomain
+        | CautionCode::LongStep
+        | CautionCode::CoarseWave
+        | CautionCode::CoarseConvectedWave
+        | CautionCode::CoarseCounting
+        | CautionCode::CrestsAtEdge
+        | CautionCode::ShallowStress
+        | CautionCode::MapNotSeen
         | CautionCode::CrestsNotFelt
+        | CautionCode::OilLaw
+        | CautionCode::NoReference
         | CautionCode::PhaseLocked
         | CautionCode::AboveSmooth
         | CautionCode::NoLife

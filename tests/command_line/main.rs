@@ -1,5 +1,6 @@
 //! The program by its command line: messages, files, sweeps, and the same number everywhere.
 
+mod cautions;
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;

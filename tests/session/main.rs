@@ -4,6 +4,7 @@ mod bands;
 #[path = "../common/engine.rs"]
 mod common;
 mod discretisation;
+mod oil_laws;
 mod phases;
 mod rungs;
 mod session;

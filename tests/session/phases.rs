@@ -9,13 +9,13 @@ use asperity_engine::scene::{Override, Scene};
 use asperity_engine::sim::{Simulation, Summary};
 use asperity_session::run::{Ending, Request, Session, over_phases};
 
-fn scene(preset: &str, sets: &[&str]) -> Arc<Scene> {
+pub(crate) fn scene(preset: &str, sets: &[&str]) -> Arc<Scene> {
     let sets: Vec<Override> = sets.iter().map(|text| text.parse().unwrap()).collect();
     Arc::new(Scene::load_with(preset, &sets).unwrap())
 }
 
 /// A run up its ladder, with its band.
-fn run(scene: &Arc<Scene>, plan: &Plan) -> Summary {
+pub(crate) fn run(scene: &Arc<Scene>, plan: &Plan) -> Summary {
     let request = Request {
         name: String::new(),
         scene: Arc::clone(scene),

@@ -146,6 +146,49 @@ await test("from a server, by touch, on a phone", async () => {
   assert.deepEqual(page.faults, []);
 });
 
+await test("a lesson by buttons: asked, answered, late, back, ended, and told to who hears it", async () => {
+  for (const options of [{ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 }, {}]) {
+    const page = await opened(local, options);
+    await alive(page);
+    const tap = async (name) => {
+      const button = page.getByRole("button", { name, exact: true });
+      await (options.hasTouch ? button.tap() : button.click());
+    };
+    const said = () => page.evaluate(() => document.getElementById("said").textContent);
+    const answers = () => page.evaluate(() => [...document.querySelectorAll("#answers button")].map((button) => button.textContent));
+    assert.equal(await page.evaluate(() => document.getElementById("lesson").hidden), true);
+    for (const name of ["Lessons", "Map", "Point", "Help"]) assert.ok(await page.getByRole("button", { name, exact: true }).isVisible(), name);
+    await tap("Lessons");
+    await until(page, "the list", (now) => /One asperity/.test(now.text));
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => document.querySelectorAll("#answers button").length > 1);
+    const asked = await answers();
+    assert.match(await said(), /How often/);
+    await shot(page, options.hasTouch ? "phone_lesson" : "lesson");
+    // A wrong one: "once" is right at S = 0.
+    const wrong = asked.find((answer) => !/^\d once$/.test(answer));
+    await tap(wrong);
+    await page.waitForFunction(() => document.querySelectorAll("#answers button").length === 0);
+    const s = (now) => /S=([\d.-]+)/.exec(now.hash)?.[1] ?? "";
+    const before = s(await state(page));
+    await page.keyboard.press("3");
+    await until(page, "a late digit", (now) => /digits answer/.test(now.text));
+    assert.equal(s(await state(page)), before);
+    await until(page, "a verdict", (now) => /You said/.test(now.text), 60);
+    assert.match(await said(), /You said/);
+    await tap("Back");
+    await page.waitForFunction(() => document.querySelectorAll("#answers button").length > 1);
+    await tap(asked.find((answer) => /^\d once$/.test(answer)));
+    await until(page, "right", (now) => /Right:/.test(now.text), 60);
+    await tap("Next");
+    await until(page, "the next beat", (now) => /\(2\/2\)/.test(now.text));
+    await tap("End lesson");
+    await page.waitForFunction(() => document.getElementById("lesson").hidden);
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  }
+});
+
 await test("sizes from phone to projector", async () => {
   const page = await opened(disk);
   await alive(page);

@@ -88,6 +88,14 @@ fn add_models(lines: &mut Lines, s: &Summary) {
         );
         lines.add("phases", what);
     }
+    if let Some((low, high)) = s.life_oil_low.zip(s.life_oil_high) {
+        let what = format!(
+            "{} to {} with the other law of flow of sheared oil (lubricant.eyring_flow), half and twice its Eyring stress",
+            four(low),
+            four(high)
+        );
+        lines.add("oil law", what);
+    }
     let spread = s.life_models_low.zip(s.life_models_high);
     if let (Some((low, high)), Some(count @ 2..)) = (spread, s.life_models) {
         let (low, high) = (four(low), four(high));

@@ -59,6 +59,14 @@ impl ContactKind {
         }
     }
 
+    /// Mean pressure over p_h.
+    pub fn mean_pressure(self) -> f64 {
+        match self {
+            Self::Point => 2.0 / 3.0,
+            Self::Line => PI / 4.0,
+        }
+    }
+
     /// a/a_0 = p_h/p_h0 for a ratio of loads.
     pub fn size_ratio(self, load_ratio: f64) -> f64 {
         match self {

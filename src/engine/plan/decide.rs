@@ -3,7 +3,7 @@
 use super::LifeAsked;
 use super::{
     Crests, Domain, EDGES_WORTH_A_WORD, FilmPlan, LeftOut, MOLECULE_M, OtherFilms, Plan,
-    StressPlan, Symmetry, TimeDependence, TractionDeflection, Valleys, Warning, WavePlan,
+    StressPlan, Symmetry, TimeDependence, TractionDeflection, Valleys, Warning,
 };
 use crate::math::number::fixed;
 use crate::physics::film_regression;
@@ -180,46 +180,9 @@ pub(super) fn order(scene: &Scene, film: Option<&FilmPlan>, domain: &Domain) -> 
     }
 }
 
-/// A time step that costs film: longer than a node, or than a sixteenth of a wave that passes (a twelfth where time is of
-/// order 3).
-///
-/// At 8 nodes a wave the mean central film errs by 41, 13, 3.6 and 0.7 % with steps of 4, 2, 1 and half a node
-/// (`asperity study accuracy`); a smooth film loses by long steps, too, where it is steep.
-pub(super) fn step_warning(
-    scene: &Scene,
-    film: Option<&FilmPlan>,
-    waves: &[Option<WavePlan>; 2],
-    order: Order,
-) -> Option<Warning> {
-    /// Time steps of a wave, by order.
-    const SAMPLES: [f64; 2] = [16.0, 12.0];
-    let samples = match order {
-        Order::Second => SAMPLES[0],
-        Order::High => SAMPLES[1],
-    };
-    film.filter(|film| film.flows())?;
-    let passing = |wave: &&WavePlan| wave.crests_per_step > 0.0;
-    let shortest = waves.iter().flatten().filter(passing);
-    let wave_nodes = shortest
-        .map(|wave| wave.nodes[0])
-        .fold(f64::INFINITY, f64::min);
-    // Adaptive steps find their length themselves; the start-up keeps to the usual one.
-    let by_wave = if scene.time.tolerance.is_some() {
-        f64::INFINITY
-    } else {
-        wave_nodes / samples
-    };
-    let advised = by_wave.min(1.0);
-    let nodes = scene.time.step_nodes;
-    (nodes > advised).then_some(Warning::LongStep {
-        nodes,
-        wave_nodes,
-        advised,
-    })
-}
-
-pub(super) fn crests(scene: &Scene, hertz: &Hertz) -> Crests {
-    let (rx_m, height) = (scene.contact.rx_m, crest_m(scene));
+/// Crests `crests_m` high together.
+pub(super) fn crests(scene: &Scene, hertz: &Hertz, crests_m: f64) -> Crests {
+    let (rx_m, height) = (scene.contact.rx_m, crests_m);
     // A line has no side.
     let across = scene
         .contact

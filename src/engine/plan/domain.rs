@@ -127,6 +127,17 @@ impl Domain {
         self
     }
 
+    /// The same in half-widths of a contact `size` times as large.
+    #[must_use]
+    pub(crate) fn seen_by(self, size: f64) -> Self {
+        Self {
+            x_min_a: self.x_min_a / size,
+            x_max_a: self.x_max_a / size,
+            y_half_b: self.y_half_b / size,
+            ..self
+        }
+    }
+
     /// Relative error of the central film by all edges: the outlet costs nothing.
     pub fn edge_error(&self, film: &Truncation) -> f64 {
         (film.inlet_error(self.x_min_a) + film.side_error(self.y_half_b)).min(1.0)

@@ -11,6 +11,7 @@ mod film;
 mod life;
 mod range;
 pub mod recording;
+mod resolution;
 mod surfaces;
 mod truncation;
 mod warning;
@@ -19,6 +20,7 @@ pub use cost::Cost;
 pub use domain::{Crests, Domain};
 pub use life::{LifeAsked, LifePlan};
 pub use recording::RecordPlan;
+pub use resolution::{KnobsAt, Resolution};
 pub use surfaces::WavePlan;
 pub use truncation::{Truncation, inlet_error, mesh_error, side_error};
 pub use warning::{LeftOut, PlanError, Warning};
@@ -74,6 +76,8 @@ pub struct Plan {
     pub length_a: f64,
     /// The waves of body 1 and 2; `None`: smooth.
     pub waves: [Option<WavePlan>; 2],
+    /// What mesh and step make of them.
+    pub resolution: Resolution,
     /// The height maps of body 1 and 2; `None`: it has none.
     pub maps: [Option<MapReport>; 2],
     /// Normal deflection by tangential traction, u^s; `None`: the bodies are alike.
@@ -247,7 +251,8 @@ impl Plan {
         let film = decide::film_plan(scene, &hertz);
         range::check(scene, &hertz, film.as_ref())?;
         let kind = scene.kind();
-        let crests = decide::crests(scene, &hertz);
+        let crests_m = decide::crest_m(scene);
+        let crests = decide::crests(scene, &hertz, crests_m);
         let domain = Domain::choose(
             kind,
             &scene.grid,
@@ -259,22 +264,20 @@ impl Plan {
         let dy_m = row_spacing_m(kind, &domain, &hertz);
         let mut warnings = decide::domain_warnings(&domain, film.as_ref());
         if crests.meet_at_edge_of(kind, &domain) {
-            warnings.push(Warning::CrestsAtEdge {
-                crests_m: decide::crest_m(scene),
-            });
+            warnings.push(Warning::CrestsAtEdge { crests_m });
         }
         let order = decide::order(scene, film.as_ref(), &domain);
         let step_m = scene.time.step_nodes * dx_m;
-        let waves = surfaces::plan(scene, [dx_m, dy_m], (step_m, order), &mut warnings)?;
+        let waves = surfaces::plan(scene, [dx_m, dy_m], step_m)?;
+        let resolution = Resolution::new(&waves, scene, order);
+        warnings.extend(resolution.warnings(&KnobsAt::of(scene, film.as_ref())));
         let time_dependence = decide::time_dependence(scene);
         warnings.extend(surfaces::doubts(scene, hertz.a_m.min(hertz.b_m)));
-        warnings.extend(decide::step_warning(scene, film.as_ref(), &waves, order));
         let steps_per_passage = (4.0 * hertz.a_m / step_m).round().max(1.0) as u64;
+        let distance_m = scene.time.passages * PASSAGE_A * hertz.a_m;
         let steps = match time_dependence {
             TimeDependence::Steady { .. } => 1,
-            TimeDependence::Transient => {
-                (scene.time.passages * 4.0 * hertz.a_m / step_m).ceil() as u64
-            }
+            TimeDependence::Transient => (distance_m / step_m).ceil() as u64,
         };
         let mut plan = Self {
             title: scene.title.clone(),
@@ -297,6 +300,7 @@ impl Plan {
             passage_a: PASSAGE_A,
             length_a: scene.time.passages * PASSAGE_A,
             waves,
+            resolution,
             maps: scene.map_reports(),
             traction_deflection: decide::traction_deflection(scene),
             yielding: scene.hardness_pa().map(|pa| (pa, scene.softer())),
@@ -347,6 +351,13 @@ impl Plan {
         };
         let held = size.max(1.0).powi(self.kind.order());
         (self.force_n * held).min(self.carried_force_n())
+    }
+
+    /// Whether crests of the scene's bodies that are so high together, m, can meet at an edge of the domain, in a contact `size`
+    /// times the scene's.
+    pub fn crests_meet(&self, scene: &Scene, crests_m: f64, size: f64) -> bool {
+        let crests = decide::crests(scene, &self.hertz, crests_m / size.powi(2));
+        crests.meet_at_edge_of(self.kind, &self.domain.seen_by(size))
     }
 
     fn depths(&self) -> usize {

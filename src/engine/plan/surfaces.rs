@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::{PlanError, Warning};
 use crate::math::number::{apart, fixed};
 use crate::physics::felt::felt;
-use crate::scene::{Doubt, Order, Scene, Surface};
+use crate::scene::{Doubt, Scene, Surface};
 
 /// The waves of one body on the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,54 +63,21 @@ pub(super) fn doubts(scene: &Scene, half_width_m: f64) -> impl Iterator<Item = W
 
 /// Fewest nodes of a wave: below it the sampled wave is not the one that was asked for.
 const NODES_MIN: f64 = 4.0;
-/// Nodes of a wave below which its deformation is inaccurate.
-const NODES_GOOD: f64 = 12.0;
-/// Nodes of the convected film wave below which it decays numerically, by order of the discretisation.
-const NODES_CONVECTED: [f64; 2] = [16.0, 10.0];
-/// Time steps per passing crest that rainflow counting wants.
-const SAMPLES_GOOD: f64 = 16.0;
-
 /// The waves of both bodies; `spacing_m` along x and y, `step_m` the distance travelled at U in a time step.
 pub(super) fn plan(
     scene: &Scene,
     spacing_m: [f64; 2],
-    (step_m, order): (f64, Order),
-    warnings: &mut Vec<Warning>,
+    step_m: f64,
 ) -> Result<[Option<WavePlan>; 2], PlanError> {
     let mut waves = [None, None];
     for (index, surface) in scene.surfaces().into_iter().enumerate() {
-        let body = index as u8 + 1;
         if surface.is_smooth() {
             continue;
         }
-        check_resolved(body, surface, spacing_m)?;
+        check_resolved(index as u8 + 1, surface, spacing_m)?;
         let [k_x, k_y] = surface.wavenumbers_per_m();
         let nodes = [1.0 / (k_x * spacing_m[0]), 1.0 / (k_y * spacing_m[1])];
         let speed_ratio = (scene.speeds_m_s()[index] / scene.motion.entrainment_m_s).abs();
-        let fewest = nodes[0].min(nodes[1]);
-        if fewest < NODES_GOOD {
-            warnings.push(Warning::CoarseWave {
-                body,
-                nodes: fewest,
-            });
-        }
-        let convected = nodes[0] / speed_ratio;
-        let advised = match order {
-            Order::Second => NODES_CONVECTED[0],
-            Order::High => NODES_CONVECTED[1],
-        };
-        if scene.lubricant.is_some() && convected < advised {
-            warnings.push(Warning::CoarseConvectedWave {
-                body,
-                nodes: convected,
-                advised,
-            });
-        }
-        let sliding = scene.motion.slide_roll.abs();
-        let samples = 1.0 / (k_x * step_m * sliding);
-        if sliding > 0.0 && samples < SAMPLES_GOOD {
-            warnings.push(Warning::CoarseCounting { body, samples });
-        }
         waves[index] = Some(WavePlan {
             amplitude_m: surface.amplitude_m(),
             nodes,

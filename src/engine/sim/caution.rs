@@ -7,8 +7,13 @@
 //! map_doubtful   the best plane, or outlying pixels, of a height map are left in
 //! mesh_film      error of the smooth central film by the mesh > 5 %             at the knobs' present values
 //! short_domain   the same by the edges of the domain > 1 %                      likewise
+//! long_step, coarse_wave, coarse_convected_wave, coarse_counting, crests_at_edge, shallow_stress
+//!                what the plan warns of                                         at the knobs' present values
+//! map_not_seen   a height map of which a part has not passed yet
+//! oil_law        mean shear stress of the film > Eyring's, of oil that flows        likewise
 //! crests_not_felt  crests that press less than a thousandth of Hertz's pressure, or of which material points count less than
 //!                  a tenth, of a count above 1
+//! no_reference   the smooth contact below the fatigue limit
 //! phase_locked   S = 0 between two rough bodies
 //! model_range    greatest over least life of the choices > 2
 //! above_smooth   the whole band of life above 1.01
@@ -21,7 +26,7 @@ use super::{Frame, Grounds, LifeEstimate, Metrics, Rhythm};
 use crate::math::number::{fixed, sig};
 use crate::physics::felt::{FELT, felt_where_counted};
 use crate::physics::strength::Strength;
-use crate::plan::{EDGES_WORTH_A_WORD, MOLECULE_M};
+use crate::plan::{EDGES_WORTH_A_WORD, KnobsAt, MOLECULE_M, Warning};
 use crate::scene::{Doubt, StressMeasure};
 
 /// Kind of caution, as scripts read it.
@@ -46,10 +51,28 @@ pub enum CautionCode {
     MeshFilm,
     /// The edges of the domain starve the film.
     ShortDomain,
+    /// The time step is long beside a node or a wave that passes.
+    LongStep,
+    /// A wave has few nodes.
+    CoarseWave,
+    /// The film wave that travels at U has few nodes.
+    CoarseConvectedWave,
+    /// Crests slide past a material point in few time steps.
+    CoarseCounting,
+    /// Crests can touch at the edge of the domain.
+    CrestsAtEdge,
+    /// The stress volume cuts the life integral short.
+    ShallowStress,
+    /// A part of a height map has not passed yet.
+    MapNotSeen,
     /// A body stands (|S| = 2): lives are in the other's cycles, or the other's alone.
     StandingBody,
     /// The formula counts crests that the contact does not feel.
     CrestsNotFelt,
+    /// The oil is sheared beyond its Eyring stress: which law it flows by moves the life.
+    OilLaw,
+    /// The smooth contact lives for ever: no life is relative to it.
+    NoReference,
     /// The same crests meet all the way: the life hangs on an arbitrary phase.
     PhaseLocked,
     /// Models and cycle bases differ by a large factor.
@@ -113,9 +136,17 @@ pub(super) fn list(m: &Metrics, grounds: &Grounds) -> Vec<Caution> {
     say(CautionCode::FilmBelowMolecule, below_molecule(grounds));
     say(CautionCode::MeshFilm, mesh_film(grounds));
     say(CautionCode::ShortDomain, short_domain(grounds));
+    for warning in resolution(m, grounds) {
+        say(CautionCode::of(&warning), Some(warning.to_string()));
+    }
+    for text in map_not_seen(grounds) {
+        say(CautionCode::MapNotSeen, Some(text));
+    }
     say(CautionCode::StandingBody, standing(m, grounds));
     say(CautionCode::CrestsNotFelt, crests_not_felt(m, grounds));
+    say(CautionCode::NoReference, no_reference(grounds));
     say(CautionCode::PhaseLocked, phase_locked(m, grounds));
+    say(CautionCode::OilLaw, oil_law(m, grounds));
     say(CautionCode::ModelRange, model_range(m.life.as_ref()));
     say(CautionCode::AboveSmooth, above_smooth(m.life.as_ref()));
     say(CautionCode::NotSettled, not_settled(m, grounds));
@@ -245,6 +276,57 @@ fn short_domain(grounds: &Grounds) -> Option<String> {
     ))
 }
 
+/// What the plan warns of beside film and surfaces, at the knobs' present values.
+fn resolution(m: &Metrics, grounds: &Grounds) -> Vec<Warning> {
+    let at = KnobsAt {
+        slide_roll: m.slide_roll,
+        amplitudes_m: [m.amplitude_1_m, m.amplitude_2_m],
+        has_oil: grounds.film_m.is_some(),
+        flows: grounds.flows,
+    };
+    let coarse = (grounds.resolution).map_or_else(Vec::new, |found| found.warnings(&at));
+    let edge = (grounds.crests_at_edge_m).map(|crests_m| Warning::CrestsAtEdge { crests_m });
+    let depth =
+        (grounds.shallow_stress_a).map(|depth_max_a| Warning::ShallowStress { depth_max_a });
+    coarse.into_iter().chain(edge).chain(depth).collect()
+}
+
+fn map_not_seen(grounds: &Grounds) -> Vec<String> {
+    let of = |(k, part): (usize, &Option<[f64; 2]>)| {
+        let [seen_m, length_m] = (*part)?;
+        Some(format!(
+            "{} of the {} mm of body {}'s map have passed: what is counted, and its band, know nothing of the rest; a longer run \
+             (time.passages) sees it",
+            sig(1e3 * seen_m, 2),
+            sig(1e3 * length_m, 3),
+            k + 1
+        ))
+    };
+    let maps = grounds.map_seen_m.iter().enumerate();
+    maps.filter_map(of).collect()
+}
+
+impl CautionCode {
+    /// Of what a plan warns of.
+    pub fn of(warning: &Warning) -> Self {
+        match warning {
+            Warning::CoarseForTheFilm { .. } => Self::MeshFilm,
+            Warning::ShortDomain { .. } => Self::ShortDomain,
+            Warning::Surface { doubt, .. } => match doubt {
+                Doubt::Low { .. } | Doubt::High { .. } => Self::AmplitudeDoubtful,
+                Doubt::Tilt { .. } | Doubt::Outliers { .. } => Self::MapDoubtful,
+            },
+            Warning::CrestsAtEdge { .. } => Self::CrestsAtEdge,
+            Warning::CoarseWave { .. } => Self::CoarseWave,
+            Warning::CoarseConvectedWave { .. } => Self::CoarseConvectedWave,
+            Warning::CoarseCounting { .. } => Self::CoarseCounting,
+            Warning::LongStep { .. } => Self::LongStep,
+            Warning::NoFilm { .. } => Self::FilmBelowMolecule,
+            Warning::ShallowStress { .. } => Self::ShallowStress,
+        }
+    }
+}
+
 fn standing(m: &Metrics, grounds: &Grounds) -> Option<String> {
     if !grounds.has_life || m.entrainment_m_s == 0.0 {
         return None;
@@ -300,7 +382,8 @@ fn not_settled(m: &Metrics, grounds: &Grounds) -> Option<String> {
     } else {
         "the average does not cover a whole period of these conditions yet: it still moves"
     };
-    (grounds.has_life && !settled).then(|| why.to_owned())
+    let has_life = grounds.has_life && !grounds.no_reference;
+    (has_life && !settled).then(|| why.to_owned())
 }
 
 /// Body 1 counts the crests of body 2, and the other way round.
@@ -333,6 +416,14 @@ fn crests_not_felt(m: &Metrics, grounds: &Grounds) -> Option<String> {
     })
 }
 
+fn no_reference(grounds: &Grounds) -> Option<String> {
+    grounds.no_reference.then(|| {
+        "no life: the smooth contact, with which lives are compared, stays below the fatigue limit (life.limit_pa) and lives for \
+         ever; a lower limit, or a model without one, gives a life"
+            .to_owned()
+    })
+}
+
 /// Crest on crest or crest on valley: which, is chance in a machine and the scene's choice here.
 fn phase_locked(m: &Metrics, grounds: &Grounds) -> Option<String> {
     let both_rough = m.amplitude_1_m > 0.0 && m.amplitude_2_m > 0.0;
@@ -340,6 +431,20 @@ fn phase_locked(m: &Metrics, grounds: &Grounds) -> Option<String> {
         "S = 0: the same crests meet all the way, and this life is that of the one phase at which they do (phase_deg of a \
          surface); it is another at another phase"
             .to_owned()
+    })
+}
+
+/// Friction over the Hertz ellipse as a mean shear stress.
+fn oil_law(m: &Metrics, grounds: &Grounds) -> Option<String> {
+    let eyring_pa = grounds.eyring_stress_pa.filter(|_| grounds.flows)?;
+    let stress_pa = m.friction_coefficient.abs() * grounds.p_mean_pa;
+    let times = stress_pa / eyring_pa;
+    (grounds.has_life && m.slide_roll != 0.0 && times > 1.0).then(|| {
+        format!(
+            "the oil is sheared to {} times its Eyring stress: which law it flows by (lubricant.eyring_flow, eyring_stress_pa) \
+             moves film and life, and the band does not hold that",
+            sig(times, 2)
+        )
     })
 }
 
@@ -376,6 +481,8 @@ fn elastic_only(grounds: &Grounds) -> String {
 mod tests {
     use super::*;
     use crate::physics::strength::HARDENED_STEEL;
+    use crate::plan::Resolution;
+    use crate::scene::Order;
     use crate::sim::{LifeDetail, LifeEstimate};
 
     /// A step of a rough pair of steel rollers with nothing to complain of.
@@ -408,6 +515,16 @@ mod tests {
         (metrics, grounds)
     }
 
+    /// Waves of body 1 on a mesh of second order.
+    fn coarse(nodes: [f64; 2], step_nodes: f64) -> Resolution {
+        Resolution {
+            nodes: [Some(nodes), None],
+            step_nodes,
+            is_adaptive: false,
+            order: Order::Second,
+        }
+    }
+
     fn codes(m: &Metrics, grounds: &Grounds) -> Vec<CautionCode> {
         list(m, grounds).into_iter().map(|one| one.code).collect()
     }
@@ -422,10 +539,10 @@ mod tests {
     fn each_ground_has_its_caution_with_its_number() {
         use CautionCode::{
             AboveSmooth, BeyondYield, Dry, FilmBelowMolecule, MeshFilm, ModelRange, NoLife,
-            NotConverged, NotSettled, PhaseLocked, ShortDomain, StandingBody, StillYielding,
-            StrengthUnknown,
+            NoReference, NotConverged, NotSettled, OilLaw, PhaseLocked, ShortDomain, StandingBody,
+            StillYielding, StrengthUnknown,
         };
-        let table: [(CautionCode, &str, Spoil); 17] = [
+        let table: [(CautionCode, &str, Spoil); 19] = [
             (NotConverged, "3 of 100", |_, g| g.steps_not_converged = 3),
             (BeyondYield, "13 GPa", |_, g| g.p_max_greatest_pa = 13e9),
             (BeyondYield, "7.5 GPa", |_, g| {
@@ -453,6 +570,14 @@ mod tests {
             (ShortDomain, "2.0 %", |_, g| g.short_domain = Some(0.02)),
             (StandingBody, "body 1 stands (S = 2.00)", |m, _| {
                 (m.n_body_1, m.slide_roll) = (None, 2.0);
+            }),
+            (NoReference, "life.limit_pa", |m, g| {
+                (m.life, g.no_reference) = (None, true);
+            }),
+            // .04 of 1 GPa over 5 MPa
+            (OilLaw, "8.0 times", |m, g| {
+                (m.slide_roll, m.friction_coefficient) = (0.5, 0.04);
+                (g.eyring_stress_pa, g.p_mean_pa) = (Some(5e6), 1e9);
             }),
             (PhaseLocked, "phase_deg", |m, _| {
                 (m.amplitude_1_m, m.amplitude_2_m, m.slide_roll) = (2e-7, 1e-7, 0.0);
@@ -483,6 +608,44 @@ mod tests {
                 (m.life, g.has_life) = (None, false);
             }),
             (StrengthUnknown, "body 2", |_, g| g.strength[1] = None),
+        ];
+        each_is_said(&table);
+    }
+
+    #[test]
+    fn what_the_plan_warns_of_is_a_caution_at_the_knobs_of_now() {
+        use CautionCode::{
+            CoarseConvectedWave, CoarseCounting, CoarseWave, CrestsAtEdge, LongStep, MapNotSeen,
+            ShallowStress,
+        };
+        let table: [(CautionCode, &str, Spoil); 7] = [
+            (LongStep, "time.step_nodes = 2", |m, g| {
+                m.amplitude_1_m = 1e-7;
+                g.resolution = Some(coarse([16.0; 2], 2.0));
+            }),
+            (CoarseWave, "body 1: 8.0 nodes", |m, g| {
+                m.amplitude_1_m = 1e-7;
+                g.resolution = Some(coarse([40.0, 8.0], 0.5));
+            }),
+            // U1/U = 0.85 at S = 0.3.
+            (CoarseConvectedWave, "15.0 nodes", |m, g| {
+                (m.amplitude_1_m, m.slide_roll) = (1e-7, 0.3);
+                g.resolution = Some(coarse([12.75; 2], 0.1));
+            }),
+            // 24 nodes a wave, a node a step, twice of it slid.
+            (CoarseCounting, "passes in 12.0 steps", |m, g| {
+                (m.amplitude_1_m, m.slide_roll) = (1e-7, 2.0);
+                g.resolution = Some(coarse([24.0; 2], 1.0));
+            }),
+            (CrestsAtEdge, "1.500 µm", |_, g| {
+                g.crests_at_edge_m = Some(1.5e-6)
+            }),
+            (ShallowStress, "stress.depth_max_a = 1.2", |_, g| {
+                g.shallow_stress_a = Some(1.2);
+            }),
+            (MapNotSeen, "0.50 of the 2.00 mm of body 2's map", |_, g| {
+                g.map_seen_m[1] = Some([0.5e-3, 2e-3]);
+            }),
         ];
         each_is_said(&table);
     }

@@ -1,6 +1,7 @@
 //! What cautions are drawn from beside the scalars of a step.
 
 use crate::physics::strength::Strength;
+use crate::plan::Resolution;
 use crate::scene::{Doubt, StressMeasure};
 
 /// What cautions are drawn from beside the scalars of a step.
@@ -20,16 +21,30 @@ pub struct Grounds {
     pub strength: [Option<Strength>; 2],
     /// Smooth central film by formula at the knobs' present values, m; `None`: no oil.
     pub film_m: Option<f64>,
+    /// Its Eyring stress, Pa; `None`: no oil, or a Newtonian one.
+    pub eyring_stress_pa: Option<f64>,
+    /// Mean Hertz pressure at the load of now, Pa.
+    pub p_mean_pa: f64,
     /// Whether oil flows.
     pub flows: bool,
     /// Relative error of the smooth central film by the mesh at those values; `None`: no flow.
     pub mesh_film: Option<f64>,
     /// The same by the edges of the domain.
     pub short_domain: Option<f64>,
+    /// Mesh, step and waves; `None`: not known.
+    pub resolution: Option<Resolution>,
+    /// Heights of both surfaces' crests together, m, where they can meet at an edge of the domain.
+    pub crests_at_edge_m: Option<f64>,
+    /// Deepest point of the stress, in a, where it cuts the life integral short.
+    pub shallow_stress_a: Option<f64>,
+    /// How much of the map of body 1 and 2 has passed, and how long it is, m; `None`: it has none, or all of it has.
+    pub map_seen_m: [Option<[f64; 2]>; 2],
     /// How much body 1 and 2 feel of the crests of the other, 0 to 1.
     pub felt: [f64; 2],
     /// Whether the scene computes a life.
     pub has_life: bool,
+    /// Whether the smooth contact stays below the fatigue limit: it lives for ever, and nothing is relative to it.
+    pub no_reference: bool,
     /// Whether cycles count by their damage.
     pub by_damage: bool,
     /// Hardness of the softer body at which it flows, Pa; `None`: both are elastic.

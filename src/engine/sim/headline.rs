@@ -80,6 +80,8 @@ struct Numbers {
     life: f64,
     band: [f64; 2],
     models: [f64; 2],
+    /// Over laws of the oil; `None`: not known.
+    oil: Option<[f64; 2]>,
     paper: Option<f64>,
     /// Own cycles, peaks, traction, basis.
     factors: [f64; 4],
@@ -110,6 +112,7 @@ impl Frame {
             life: life.life_relative,
             band: [life.life_relative_low, life.life_relative_high],
             models: [detail.spread_low, detail.spread_high],
+            oil: None,
             paper: detail.life_global,
             factors: [
                 life.own_cycle_factor(),
@@ -134,6 +137,7 @@ impl Summary {
             life: self.life_relative?,
             band: [self.life_relative_low?, self.life_relative_high?],
             models: [self.life_models_low?, self.life_models_high?],
+            oil: (self.life_oil_low.zip(self.life_oil_high)).map(|(low, high)| [low, high]),
             paper: self.life_global,
             factors: [
                 cycle / basis,
@@ -180,8 +184,11 @@ impl Numbers {
         } else {
             "numerical band"
         };
+        let oil = (self.oil).map_or_else(String::new, |oil| {
+            format!("; laws of the oil {}", range(oil))
+        });
         format!(
-            "{} of smooth rolling at its own load; {band} {}; choices of count and model {}{paper}{common}",
+            "{} of smooth rolling at its own load; {band} {}; choices of count and model {}{oil}{paper}{common}",
             sig(self.life, 3),
             range(self.band),
             range(self.models)
@@ -208,11 +215,12 @@ impl Numbers {
         )
     }
 
-    /// The wider of both doubts, and the weightiest caution that is none of them.
+    /// The widest of the doubts, and the weightiest caution that is none of them.
     fn trust(&self, cautions: &[Caution]) -> String {
         let times = |[low, high]: [f64; 2]| (high / low).sqrt();
         let (mesh, models) = (times(self.band), times(self.models));
-        let use_it = match mesh.max(models) {
+        let oil = self.oil.map(times);
+        let use_it = match mesh.max(models).max(oil.unwrap_or(1.0)) {
             ..1.25 => "to a quarter",
             ..2.0 => "to a factor of two",
             ..10.0 => "as an order of magnitude; compare, do not predict",
@@ -234,10 +242,11 @@ impl Numbers {
                 CautionCode::ModelRange | CautionCode::ElasticOnly
             )
         };
+        let oil = oil.map_or_else(String::new, |oil| format!(", oil's law x {}", sig(oil, 3)));
         let caution = cautions.iter().find(other);
         let caution = caution.map_or_else(String::new, |one| format!("; {}", one.text));
         format!(
-            "{use_it}: {what} x {} either way, count and model x {}{absolute}{caution}",
+            "{use_it}: {what} x {} either way, count and model x {}{oil}{absolute}{caution}",
             sig(mesh, 3),
             sig(models, 3)
         )

@@ -7,7 +7,7 @@ use super::scaling::Scaling;
 use crate::math::grid::Grid;
 use crate::physics::fluid::ShearedFlow;
 use crate::physics::strength::{self, Strength};
-use crate::plan::Plan;
+use crate::plan::{Plan, Warning};
 use crate::scene::{Cavitation, CycleBasis, Rheology, Scene, Surface};
 use crate::solve::march::{Flow, Shape, Solver};
 use crate::solve::newton::Tolerance;
@@ -63,7 +63,7 @@ impl SimPlan {
                 oil.viscosity_pa_s / (scaling.p_hertz_pa * scaling.film_m)
             }),
             law: traction_law(scene, &scaling),
-            grounds: grounds_of(scene),
+            grounds: grounds_of(scene, &decided),
             stepping: stepping_of(scene),
             cuts: cuts(scene),
             rms_shares: scene.surfaces().map(rms_share),
@@ -254,8 +254,16 @@ fn cuts(scene: &Scene) -> Vec<Cut> {
 }
 
 /// What the scene says of the grounds of cautions.
-fn grounds_of(scene: &Scene) -> Grounds {
+fn grounds_of(scene: &Scene, decided: &Plan) -> Grounds {
     Grounds {
+        eyring_stress_pa: (scene.lubricant.as_ref())
+            .filter(|oil| oil.rheology == Rheology::Eyring)
+            .map(|oil| oil.eyring_stress_pa),
+        resolution: Some(decided.resolution),
+        shallow_stress_a: decided.warnings.iter().find_map(|warning| match warning {
+            Warning::ShallowStress { depth_max_a } => Some(*depth_max_a),
+            _ => None,
+        }),
         measure: scene.stress.as_ref().map(|stress| stress.measure),
         strength: [&scene.body_1, &scene.body_2].map(|body| match body.hardness_pa {
             Some(hardness_pa) if hardness_pa.is_finite() => Some(Strength::of(hardness_pa)),

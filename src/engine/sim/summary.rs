@@ -126,6 +126,12 @@ pub struct Summary {
     /// Greatest.
     #[serde(default)]
     pub life_phases_high: Option<f64>,
+    /// Least life with the other law of flow of sheared oil, and with half and twice its Eyring stress.
+    #[serde(default)]
+    pub life_oil_low: Option<f64>,
+    /// Greatest.
+    #[serde(default)]
+    pub life_oil_high: Option<f64>,
     /// Life at the scene's probability of survival over that at 50 %.
     pub survival_ratio: Option<f64>,
     /// Greatest effective stress of the last passage, Pa.

@@ -11,6 +11,7 @@
 //! ```
 //! Without threads the owner makes the turns of the same loop itself: [`Cooperative`].
 
+mod beside;
 mod checkpoint;
 mod climbing;
 mod clock;
@@ -22,6 +23,7 @@ mod driver;
 mod errors;
 mod handle;
 mod ladder;
+mod oil_laws;
 mod outcome;
 mod outputs;
 mod phases;
@@ -39,6 +41,7 @@ pub use driver::LoopTurn;
 pub use errors::NoEstimate;
 pub use handle::{RunHandle, Status};
 pub use ladder::{Climb, Ladder, Mesh};
+pub use oil_laws::{hangs_on_oil_law, over_oil_laws};
 pub use outcome::{End, Outcome, Unconverged};
 pub use outputs::{Activity, Switch, Watcher, WatcherStatus};
 pub use phases::{asks_for_no_phase, over_phases};

@@ -8,13 +8,12 @@
 //! Only where the scene asks for no phase: both `phase_deg` are 0. Who wants crest on crest writes 360.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
-use super::crew::share_out;
-use super::ladder::Ladder;
+use super::beside::{coarsest, lives};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Scene, Surface};
-use asperity_engine::sim::{Simulation, Summary};
+use asperity_engine::sim::Summary;
 
 /// Phases of body 1 beside the scene's, degrees.
 const PHASES: [f64; 7] = [45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0];
@@ -32,20 +31,13 @@ pub fn asks_for_no_phase(scene: &Scene) -> bool {
     waves && scene.life.is_some() && scene.motion.slide_roll == 0.0 && scene.events.is_empty()
 }
 
-/// The life of a run of the scene with another phase of body 1; `None`: it does not get through, or somebody said stop.
-fn life(scene: &Scene, phase: f64, stop: &AtomicBool) -> Option<f64> {
+/// The scene with another phase of body 1.
+fn at_phase(scene: &Scene, phase: f64) -> Scene {
     let mut scene = scene.clone();
     if let Surface::Sinusoid { phase_deg, .. } = &mut scene.body_1.surface {
         *phase_deg = phase;
     }
-    let mut sim = Simulation::new(&scene, Plan::new(&scene).ok()?, 1).ok()?;
-    while !sim.is_done() {
-        sim.step().ok()?;
-        if stop.load(Ordering::Relaxed) {
-            return None;
-        }
-    }
-    sim.summary().life_relative
+    scene
 }
 
 /// Widens the band of a finished run's life to what the phases make of it; says over how many. `None`: the life hangs on none,
@@ -60,16 +52,10 @@ pub fn over_phases(
     if !asks_for_no_phase(scene) {
         return None;
     }
-    let ladder = Ladder::of(scene, plan);
-    let coarse = &ladder.meshes()[0].scene;
-    let phases: Vec<f64> = std::iter::once(0.0).chain(PHASES).collect();
-    let lives = share_out(
-        &phases,
-        threads,
-        |phase| life(coarse, *phase, stop),
-        &mut |_, _| {},
-    );
-    let lives: Vec<f64> = lives.into_iter().collect::<Option<_>>()?;
+    let coarse = coarsest(scene, plan);
+    let phases = std::iter::once(0.0).chain(PHASES);
+    let scenes: Vec<Scene> = phases.map(|phase| at_phase(&coarse, phase)).collect();
+    let lives = lives(&scenes, threads, stop)?;
     let own = lives[0];
     let ratios = || lives.iter().map(|life| life / own);
     let (least, most) = (ratios().fold(1.0, f64::min), ratios().fold(1.0, f64::max));
@@ -80,5 +66,5 @@ pub fn over_phases(
     summary.life_relative_low = summary.life_relative_low.map(|low| low * least / off);
     summary.life_relative_high = summary.life_relative_high.map(|high| high * most * off);
     *summary = std::mem::take(summary).with_cycles_band();
-    Some(phases.len())
+    Some(lives.len())
 }

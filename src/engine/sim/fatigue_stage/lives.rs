@@ -11,7 +11,7 @@ use crate::solve::life::factors;
 
 impl LifeStage {
     /// Factors of both bodies; `None` for a body that stands or is not counted yet, and for all where
-    /// nothing was sampled.
+    /// nothing was sampled, or the smooth contact lives for ever.
     pub(super) fn lives(
         &self,
         variant: &Variant,
@@ -24,6 +24,8 @@ impl LifeStage {
         Some(BodyId::BOTH.map(|body| {
             let profile = cycle_profile(body, basis, now.n[body.index()], counting)?;
             let ln_reference = self.ln_reference(variant, body, integral, now.size);
+            // Nothing is relative to what lives for ever.
+            ln_reference.is_finite().then_some(())?;
             let f = factors(self.law, shares, body, ln_reference, profile);
             f.relative.is_finite().then_some(f)
         }))

@@ -149,6 +149,17 @@ impl LifeStage {
         life.is_finite().then_some(life)
     }
 
+    /// Whether no stress of the smooth contact is above the fatigue limit.
+    pub(in crate::sim) fn reference_lives_for_ever(&self) -> bool {
+        let scene = &self.variants[0];
+        let limit = scene
+            .model
+            .stress_law(self.law)
+            .map_or(0.0, |(_, limit)| limit);
+        let ln = scene.ln_reference(BodyId::One, LifeIntegral::Snapshot);
+        limit > 0.0 && ln == f64::NEG_INFINITY
+    }
+
     pub(super) fn growth(&self, variant: &Variant, integral: LifeIntegral) -> f64 {
         let swept = match integral {
             LifeIntegral::Snapshot => false,

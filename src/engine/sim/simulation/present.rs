@@ -1,12 +1,13 @@
 //! What follows by closed forms from the knobs as they are now: size of the contact, film, λ, regime, mesh error, and the
 //! grounds of cautions.
 
-use crate::plan::{Domain, FilmPlan};
+use crate::plan::FilmPlan;
 use crate::sim::counting::felt_at_points;
+use crate::sim::fatigue_stage::LifeStage;
 use crate::sim::measure::Measured;
 use crate::sim::sim_plan::SimPlan;
 use crate::sim::smooth::LoadAndSpeed;
-use crate::sim::{Grounds, Knob, LubricationRegime, MeshErrors, State};
+use crate::sim::{Grounds, Knob, LubricationRegime, MeshErrors, Metrics, State};
 use crate::solve::march::Flow;
 
 /// Load and speed that the knobs go to.
@@ -80,25 +81,47 @@ pub(super) fn grounds(plan: &SimPlan, state: &State) -> Grounds {
     } else {
         measured.or(by_rule)
     };
-    let hertz = &plan.decided.hertz;
+    let (hertz, domain) = (&plan.decided.hertz, &plan.decided.domain);
     let mut grounds = Grounds {
         steps: state.step,
         half_width_m: size * hertz.a_m.min(hertz.b_m),
+        p_mean_pa: size * hertz.p_max_pa * plan.decided.kind.mean_pressure(),
         film_m: film.map(|film| film.central_m),
         flows,
         felt: felt_at_points(&plan.decided, size, &state.metrics),
+        no_reference: (state.life.as_ref()).is_some_and(LifeStage::reference_lives_for_ever),
         mesh_film: mesh_film.filter(|_| flows),
-        short_domain: film.filter(|_| flows).map(|film| {
-            let domain = &plan.decided.domain;
-            let seen = Domain {
-                x_min_a: domain.x_min_a / size,
-                y_half_b: domain.y_half_b / size,
-                ..*domain
-            };
-            seen.edge_error(&film.truncation())
-        }),
+        short_domain: film
+            .filter(|_| flows)
+            .map(|film| domain.seen_by(size).edge_error(&film.truncation())),
+        crests_at_edge_m: crests_at_edge_m(plan, &state.metrics, size),
+        map_seen_m: map_seen_m(plan, state),
         ..plan.grounds
     };
     state.totals.ground(&mut grounds);
     grounds
 }
+
+/// Heights of both surfaces' crests together, m, where they can meet at an edge of the domain; `None`: they cannot.
+fn crests_at_edge_m(plan: &SimPlan, m: &Metrics, size: f64) -> Option<f64> {
+    let crests_m = m.amplitude_1_m.abs() + m.amplitude_2_m.abs();
+    let meet = plan.decided.crests_meet(&plan.scene, crests_m, size);
+    meet.then_some(crests_m)
+}
+
+/// How much of the height maps of body 1 and 2 has passed since the start-up, and how long they are, m; `None`: it has none, it
+/// stands, or all of it has passed.
+fn map_seen_m(plan: &SimPlan, state: &State) -> [Option<[f64; 2]>; 2] {
+    let slide_roll = state.drive.get(Knob::SlideRoll).now;
+    let distance_m = state.distance * plan.decided.hertz.a_m;
+    [-0.5, 0.5].map(|side| {
+        let body = usize::from(side > 0.0);
+        let length_m = plan.decided.maps[body].as_ref()?.size_x_m;
+        let ratio = (1.0 + side * slide_roll).abs();
+        let seen_m = distance_m * ratio;
+        (ratio > 0.0 && seen_m < (1.0 - SEEN_WHOLE) * length_m).then_some([seen_m, length_m])
+    })
+}
+
+/// Share of a map that a last step may leave out.
+const SEEN_WHOLE: f64 = 1e-6;
