@@ -7,7 +7,7 @@ const FIRST_NAMED = 0x110000;
 const at = (id) => document.getElementById(id);
 const screen_ = at("screen");
 const painter = new Painter(screen_);
-const state = { firstLifeMs: null, spoken: "", steps: 0, seconds: 0, bytes: 0, nodes: 129, link: "", lesson: "", broken: null, refused: null };
+const state = { firstLifeMs: null, spoken: "", steps: 0, seconds: 0, bytes: 0, nodes: 129, link: "", caption: "", broken: null, refused: null };
 let worker = null;
 let isInstead = false;
 
@@ -81,7 +81,7 @@ function hear(event) {
   }
   if (m.spoken !== undefined) {
     news(m);
-    teach(m.lesson);
+    teach(m.caption);
   }
   if (m.file) {
     const end = m.file.indexOf("\n");
@@ -111,15 +111,18 @@ function news(m) {
   }
 }
 
-// What a lesson says, for who hears it; its answers as buttons.
-function teach(lesson) {
-  if (lesson === state.lesson) return;
-  state.lesson = lesson;
-  const [title, words, ...answers] = lesson.split("\n");
-  at("lesson").hidden = !lesson;
-  // Numbers of a running lesson change all the time: what it says is told once.
-  const said = lesson ? `Lesson ${title}. ${words.replace(/\s{3,}.*$/, "")} ${answers.map((answer, k) => `${k + 1}: ${answer}.`).join(" ")}` : "";
-  if (at("said").textContent !== said) at("said").textContent = said;
+// What a lesson or the scene says, in the page's own letters; its answers as buttons.
+function teach(caption) {
+  if (caption === state.caption) return;
+  state.caption = caption;
+  const [who, title, words, figures, ...answers] = caption.split("\n");
+  at("lesson").hidden = !caption;
+  at("lesson").className = who;
+  // What is told is heard once; its numbers go on changing.
+  const say = (id, text) => { if (at(id).textContent !== (text ?? "")) at(id).textContent = text ?? ""; };
+  say("title", title);
+  say("said", words);
+  say("figures", figures);
   const old = [...at("answers").children].map((button) => button.textContent);
   const texts = answers.map((answer, k) => `${k + 1} ${answer}`);
   if (old.join("\n") === texts.join("\n")) return;
@@ -190,7 +193,11 @@ function watch() {
     if (event.deltaY) point(event.deltaY < 0 ? 3 : 4, event);
   }, { passive: false });
   for (const button of document.querySelectorAll("[data-key]")) {
-    button.addEventListener("click", () => press(button.dataset.key, 0));
+    button.addEventListener("click", (event) => {
+      press(button.dataset.key, 0);
+      // After a finger or a mouse the keyboard is the explorer's; who came by keyboard stays.
+      if (event.detail) screen_.focus();
+    });
   }
   at("table").addEventListener("click", () => worker.postMessage({ kind: "table" }));
   at("scene").addEventListener("click", () => worker.postMessage({ kind: "scene" }));

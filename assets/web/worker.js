@@ -102,7 +102,7 @@ function draw() {
   if (now - told >= WORDS_MS) {
     told = now;
     message.spoken = words(wasm.spoken);
-    message.lesson = words(wasm.lesson);
+    message.caption = words(wasm.caption);
     message.link = words(wasm.link);
     message.steps = steps;
     message.seconds = (now - since) / 1000;

@@ -4,6 +4,8 @@ mod recordings;
 mod study;
 mod sweep_texts;
 
+use std::borrow::Cow;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use asperity_engine::scene::{Knob, presets};
@@ -50,8 +52,9 @@ Exit codes: 0 converged; 1 bad input; 2 the run ended but some steps did not con
 it repeats breaks off.
 
 Outputs: a file that is there is replaced (--force) only by one that is whole; until then the new one lies beside it,
-as NAME.part-PID-N.ENDING, which is what a killed run leaves. Results are the same bit for bit on any number of
-threads and on every CPU with the same vector units; between kinds of CPU they differ by rounding (about 1e-7).";
+as NAME.part-PID-N.ENDING, which is what a killed run leaves; that of a stopped run stays as NAME.stopped.ENDING.
+Results are the same bit for bit on any number of threads and on every CPU with the same vector units; between kinds of
+CPU they differ by rounding (about 1e-7).";
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -217,7 +220,7 @@ pub(crate) enum SweepCommand {
 pub(crate) struct SceneArgs {
     /// Preset (see `asperity scenes`) or TOML file
     #[arg(default_value = presets::DEFAULT)]
-    pub(crate) scene: String,
+    pub(crate) scene: OsString,
     /// Set a key of the scene, such as motion.slide_roll=0.5; KEY=none removes a key or table. Repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) settings: Vec<String>,
@@ -227,6 +230,13 @@ pub(crate) struct SceneArgs {
     /// Nodes per side of the last mesh, 2^k + 1 (sets grid.nodes): fewer for the impatient
     #[arg(long, value_name = "N")]
     pub(crate) nodes: Option<u16>,
+}
+
+impl SceneArgs {
+    /// The scene's name, or its path as far as it is text.
+    pub(crate) fn name(&self) -> Cow<'_, str> {
+        self.scene.to_string_lossy()
+    }
 }
 
 /// How to run it and what to write.

@@ -90,7 +90,7 @@ pub(crate) fn explore(
         )));
     }
     let mut args = args.clone();
-    let opening = presets::opening(&args.scene.scene).map(str::to_owned);
+    let opening = presets::opening(&args.scene.name()).map(str::to_owned);
     args.scene.settings.splice(0..0, opening);
     let args = &args;
     let prepared = scenes::prepare(args)?;

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use asperity_engine::observe::ObserveError;
 use asperity_engine::plan::PlanError;
 use asperity_engine::scene::SceneError;
+use asperity_engine::scene::drives_a_terminal;
 use asperity_session::run::{CheckpointError, RunError};
 use asperity_session::sweep::SweepError;
 use miette::{MietteDiagnostic, MietteHandlerOpts, Report, miette};
@@ -128,7 +129,7 @@ fn cut(line: &str) -> String {
 
 /// Control characters as they would be written, but ends of lines and tabs: a terminal must not obey a text.
 pub(crate) fn visible(text: &str) -> Cow<'_, str> {
-    let is_control = |c: char| c.is_control() && c != '\n' && c != '\t';
+    let is_control = |c: char| drives_a_terminal(c) && c != '\n' && c != '\t';
     if !text.contains(is_control) {
         return Cow::Borrowed(text);
     }

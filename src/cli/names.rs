@@ -28,7 +28,7 @@ impl Names {
             export: args.export.clone(),
             ..Self::default()
         };
-        if presets::find(&args.scene.scene).is_none() {
+        if presets::find(&args.scene.name()).is_none() {
             names.reads("the scene", Some(Path::new(&args.scene.scene)));
         }
         for surface in scene.surfaces() {

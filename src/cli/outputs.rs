@@ -240,7 +240,10 @@ impl SummaryTo {
         match (self, summary) {
             (Self::Stdout, Some(summary)) => print(&json(summary)?),
             (Self::Stdout, None) => Ok(()),
-            (Self::File(claim), Some(summary)) => {
+            (Self::File(mut claim), Some(summary)) => {
+                if summary.stopped {
+                    claim.cut_short();
+                }
                 // The file first: what cannot be told is no reason to lose it.
                 let written = claim.write(json(summary)?.as_bytes());
                 print(people).and(written)

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use asperity_engine::observe::{Claim, ObserveError, Overwrite, leftovers};
+use asperity_engine::observe::{Claim, ObserveError, Overwrite, leftovers, stopped_of};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::Scene;
 use asperity_session::run::{
@@ -98,7 +98,8 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
     } else {
         "not estimated: knobs were turned by hand, or the recording ends early".to_owned()
     };
-    note_in_recording(&mut outcome, recorded.then_some(path.as_path()));
+    let recording = recorded.then(|| lies_at(&outcome, &path));
+    note_in_recording(&mut outcome, recording.as_deref());
     tell_where_stopped(&outcome);
     // The state first: it is what a run that cannot tell its results is taken up from.
     let saved = to_save.map_or(Ok(()), |claim| save_state(&outcome, claim));
@@ -138,6 +139,17 @@ fn note_in_recording(outcome: &mut Outcome, recording: Option<&Path>) {
     }
     #[cfg(not(feature = "rerun"))]
     let _ = (outcome, recording);
+}
+
+/// Where the recording of that name lies: beside the name where the run was stopped and a whole file has it.
+fn lies_at(outcome: &Outcome, path: &Path) -> PathBuf {
+    let aside = stopped_of(path);
+    let mut outputs = outcome
+        .reports
+        .iter()
+        .map(|report| Path::new(&report.output));
+    let aside = outputs.find(|output| output.file_name() == aside.file_name());
+    aside.unwrap_or(path).to_owned()
 }
 
 fn save_state(outcome: &Outcome, claim: Claim) -> Result<(), ObserveError> {

@@ -1,6 +1,7 @@
 //! `asperity scenes` and `asperity check`, and how the other commands get their scene.
 
 use std::io::{ErrorKind, Write as _};
+use std::path::Path;
 use std::sync::Arc;
 
 use asperity_engine::observe::ObserveError;
@@ -31,18 +32,20 @@ fn load(args: &SceneArgs) -> Result<Scene, SceneError> {
     if let Some(nodes) = args.nodes {
         overrides.push(format!("grid.nodes={nodes}").parse()?);
     }
-    Scene::load_with(&args.scene, &overrides)
+    match args.scene.to_str() {
+        Some(name) => Scene::load_with(name, &overrides),
+        // A path that is no text is no preset's name.
+        None => Scene::load_file_with(Path::new(&args.scene), &overrides),
+    }
 }
 
 /// The scene to run, with a recording only if there will be one, and its plan.
 pub(crate) fn prepare(args: &RunArgs) -> Result<Prepared, Failure> {
     let scene = load(&args.scene)?;
-    let name = std::path::Path::new(&args.scene.scene)
-        .file_stem()
-        .map_or_else(
-            || "scene".to_owned(),
-            |stem| stem.to_string_lossy().into_owned(),
-        );
+    let name = Path::new(&args.scene.scene).file_stem().map_or_else(
+        || "scene".to_owned(),
+        |stem| stem.to_string_lossy().into_owned(),
+    );
     finish(args, scene, name)
 }
 

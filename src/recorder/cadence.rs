@@ -298,11 +298,9 @@ mod tests {
         let mut cadence = cadence(1, 10.0, 100.0);
         let (_, taken, _, notes) = run(&mut cadence, 200_000, FRAME);
         assert!((5..20).contains(&notes), "{notes}");
-        // The last half still holds frames.
-        assert!(
-            taken.last().is_some_and(|&step| step > 100_000),
-            "{taken:?}"
-        );
+        // What lies between two frames at least doubles with every thinning, so the last may lie anywhere in the last three
+        // quarters.
+        assert!(taken.last().is_some_and(|&step| step > 50_000), "{taken:?}");
     }
 
     #[test]

@@ -126,6 +126,19 @@ impl RecordingFile {
         }
     }
 
+    /// The run that it is of has been stopped before its end.
+    pub(crate) fn cut_short(&self) {
+        self.lock().placed.cut_short();
+    }
+
+    /// Where it lies beside the whole file that it was to replace; `None`: it has its name.
+    pub(crate) fn set_aside(&self) -> Option<PathBuf> {
+        self.lock()
+            .placed
+            .set_aside()
+            .map(std::path::Path::to_path_buf)
+    }
+
     /// Where it is written.
     pub(crate) fn path(&self) -> PathBuf {
         self.lock().placed.at().to_owned()

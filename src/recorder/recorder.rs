@@ -245,8 +245,14 @@ impl Observer for Recorder {
         if self.stream.is_gone() {
             return Ok(());
         }
-        if let RunEventKind::Caption(caption) = &event.kind {
-            self.caption.clone_from(caption);
+        match &event.kind {
+            RunEventKind::Caption(caption) => self.caption.clone_from(caption),
+            RunEventKind::CutShort => {
+                if let Some(file) = self.stream.to().file() {
+                    file.cut_short();
+                }
+            }
+            RunEventKind::Set { .. } | RunEventKind::NotConverged { .. } => {}
         }
         if self.views.is_none() {
             self.early.push(event.clone());
@@ -287,7 +293,9 @@ impl Observer for Recorder {
         }
         self.stream.close()?;
         let (stream, frames) = (&self.stream, self.frames);
-        let mut report = stream.to().report(stream.output(), frames, self.unsent);
+        let aside = stream.to().file().and_then(RecordingFile::set_aside);
+        let output = aside.map_or_else(|| stream.output(), |at| at.display().to_string());
+        let mut report = stream.to().report(output, frames, self.unsent);
         let not_compacted = stream.to().file().and_then(RecordingFile::not_compacted);
         if let Some(reason) = not_compacted {
             report.note = format!("without a footer, so viewers read all of it: {reason}");

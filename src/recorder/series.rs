@@ -187,6 +187,7 @@ fn line(code: CautionCode) -> Option<usize> {
         | CautionCode::CoarseCounting
         | CautionCode::CrestsAtEdge
         | CautionCode::ShallowStress
+        | CautionCode::LateEvent
         | CautionCode::MapNotSeen
         | CautionCode::CrestsNotFelt
         | CautionCode::OilLaw

@@ -346,6 +346,10 @@ pub(crate) fn log_event(stream: &Stream, event: &RunEvent, turns: u64) {
             ),
             TextLogLevel::WARN,
         ),
+        RunEventKind::CutShort => (
+            "the run was stopped before its end".to_owned(),
+            TextLogLevel::WARN,
+        ),
     };
     if let RunEventKind::Set {
         key,

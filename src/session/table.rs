@@ -10,7 +10,7 @@ use std::sync::Arc;
 use crate::cells::Cells;
 use asperity_engine::observe::{
     Left, NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, Placed, RunContext,
-    RunEvent,
+    RunEvent, RunEventKind,
 };
 use asperity_engine::sim::{CATALOGUE, Frame};
 
@@ -87,7 +87,10 @@ impl Observer for Table {
         self.placed.hold().map_err(|error| self.failed(&error))
     }
 
-    fn event(&mut self, _event: &RunEvent) -> Result<(), ObserveError> {
+    fn event(&mut self, event: &RunEvent) -> Result<(), ObserveError> {
+        if matches!(event.kind, RunEventKind::CutShort) {
+            self.placed.cut_short();
+        }
         Ok(())
     }
 
@@ -99,7 +102,8 @@ impl Observer for Table {
         let settled = self.placed.settle();
         let is_there = settled.map_err(|error| self.failed(&error))?;
         Ok(ObserverReport {
-            output: self.output.clone(),
+            output: (self.placed.set_aside())
+                .map_or_else(|| self.output.clone(), |at| at.display().to_string()),
             frames: self.rows,
             skipped: 0,
             bytes: if is_there { bytes } else { 0 },

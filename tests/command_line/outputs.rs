@@ -490,17 +490,12 @@ fn nothing_was_sent_to_a_viewer_that_never_answered() {
 fn no_text_drives_the_terminal_or_floods_it() {
     let folder = tempfile::tempdir().unwrap();
     let place = folder.path();
-    let output = short(
-        place,
-        &[
-            "--no-record",
-            "--set=title=\"a \\u001b[31mred \\u009b2J\\u0007\"",
-        ],
-    );
-    assert_code(&output, 0);
-    let told = text(&output.stdout);
+    let title = "--set=title=\"a \\u001b[31mred \\u009b2J\\u0007 \\u202eb\"";
+    let output = short(place, &["--no-record", title]);
+    assert_code(&output, 1);
+    let told = text(&output.stderr);
     assert!(
-        told.contains("\\u{1b}[31mred") && !told.contains(['\u{1b}', '\u{9b}', '\u{7}']),
+        told.contains("title") && !told.contains(['\u{1b}', '\u{9b}', '\u{7}', '\u{202e}']),
         "{told}"
     );
     std::fs::write(
@@ -675,5 +670,146 @@ fn what_a_map_is_stands_in_check_report_and_summary() {
     ] {
         let found = map[key].as_f64().unwrap();
         assert!((found / told - 1.0).abs() < 1e-6, "{key}: {found:e}");
+    }
+}
+
+/// What a whole run has left is not given up for the part of another: that lies beside it, and says where.
+#[test]
+fn a_stopped_run_leaves_the_whole_one_that_it_was_to_replace() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let outputs = ["--out=a.rrd", "--table=a.csv", "--summary=a.json"];
+    let whole = short(folder, &outputs);
+    assert_code(&whole, 0);
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let before = ["a.rrd", "a.csv", "a.json"].map(read);
+    let forced = [&outputs[..], &["--force"]].concat();
+    let child = endless(folder, &forced);
+    wait_until("rows of the second run", || {
+        let parts = names(folder).into_iter();
+        let part = parts.filter(|name| name.contains(".part-") && name.ends_with(".csv"));
+        part.map(|name| rows(&folder.join(name))).max() > Some(20)
+    });
+    signal(&child, "-INT");
+    let (code, out, err) = ended(child);
+    assert_eq!(code, Some(5), "{err}");
+    assert_eq!(["a.rrd", "a.csv", "a.json"].map(read), before);
+    assert_eq!(
+        names(folder),
+        [
+            "a.csv",
+            "a.json",
+            "a.rrd",
+            "a.stopped.csv",
+            "a.stopped.json",
+            "a.stopped.rrd"
+        ]
+    );
+    assert!(
+        out.contains("a.stopped.rrd") && out.contains("a.stopped.csv"),
+        "{out}"
+    );
+    let summary: serde_json::Value = serde_json::from_slice(&read("a.stopped.json")).unwrap();
+    assert_eq!(summary["stopped"], true);
+    assert_eq!(summary["converged"], false);
+    // It can be read.
+    assert_code(
+        &asperity(folder, &["export", "a.stopped.rrd", "--as=csv"]),
+        0,
+    );
+    // One that comes to its end takes the name, as always.
+    assert_code(&short(folder, &forced), 0);
+    assert!(read("a.csv").len() == before[1].len());
+}
+
+/// Names are bytes, and 255 of them; titles are one line that drives no terminal.
+#[test]
+fn paths_need_be_no_text_and_may_be_long_and_titles_are_one_line() {
+    use std::os::unix::ffi::OsStrExt as _;
+    let home = tempfile::tempdir().unwrap();
+    let folder = home
+        .path()
+        .join(std::ffi::OsStr::from_bytes(b"no \xff text"));
+    std::fs::create_dir(&folder).unwrap();
+    let scene = text(&asperity(home.path(), &["scenes", "demonstration_quick"]).stdout);
+    let file = folder.join("scene.toml");
+    std::fs::write(&file, &scene).unwrap();
+    let long = folder.join(format!("{}.rrd", "n".repeat(251)));
+    let run = Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .args(["run", "--passages=0.5", "--force"])
+        .args(SMALL)
+        .arg(&file)
+        .arg("--out")
+        .arg(&long)
+        .arg("--table")
+        .arg(folder.join("t.csv"))
+        .output()
+        .unwrap();
+    assert_code(&run, 0);
+    assert!(std::fs::metadata(&long).unwrap().len() > 10_000);
+    assert!(rows(&folder.join("t.csv")) > 5);
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 3);
+    for title in ["two\\nlines", "\\u202ereversed", "\\u001b[31mred"] {
+        let mut lines: Vec<String> = scene.lines().map(str::to_owned).collect();
+        let at = lines
+            .iter()
+            .position(|line| line.starts_with("title"))
+            .unwrap();
+        lines[at] = format!("title = \"{title}\"");
+        std::fs::write(home.path().join("t.toml"), lines.join("\n")).unwrap();
+        let checked = asperity(home.path(), &["check", "t.toml"]);
+        refused(&checked, 1, &["title", "one line"]);
+        let told = text(&checked.stderr);
+        assert!(
+            !told.contains('\u{202e}') && !told.contains('\u{1b}'),
+            "{told:?}"
+        );
+    }
+}
+
+/// A recording is no larger than was asked for; what nothing can keep is refused with what can be kept.
+#[test]
+fn a_budget_holds_or_is_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let record = |scene: &str, nodes: &str, budget: &str| {
+        asperity(
+            folder,
+            &[
+                "run",
+                scene,
+                "--nodes",
+                nodes,
+                "--passages=1",
+                "--set=stress.depths=8",
+                "--set=numerics.ladder=false",
+                "--out=a.rrd",
+                "--force",
+                "--threads=2",
+                &format!("--set=record.budget_mb={budget}"),
+            ],
+        )
+    };
+    for (scene, nodes, least) in [
+        ("demonstration_quick", "65", "1.7"),
+        ("demonstration_quick", "129", "1.8"),
+        ("fzg_point_b", "257", "1.8"),
+        ("fzg_point_a", "513", "2.4"),
+    ] {
+        refused(
+            &record(scene, nodes, "0.5"),
+            1,
+            &["record.budget_mb", &format!("at least {least} MB")],
+        );
+        for budget in [least, "2.5", "4"] {
+            assert_code(&record(scene, nodes, budget), 0);
+            let bytes = std::fs::metadata(folder.join("a.rrd")).unwrap().len();
+            let most = 1e6 * budget.parse::<f64>().unwrap();
+            println!("{scene} {nodes}: {bytes} bytes of {budget} MB");
+            assert!(
+                bytes as f64 <= most,
+                "{scene} {nodes}: {bytes} of {budget} MB"
+            );
+        }
     }
 }

@@ -201,7 +201,7 @@ fn a_recording_keeps_its_budget() {
     );
     assert!(record.frames * record.every_steps >= tight.steps);
     // Of a long run the scalars are thinned too, and the estimate knows it.
-    for (budget, passages, scalars) in [(5, 60, 3), (5, 600, 23), (20, 600, 6), (200, 20, 1)] {
+    for (budget, passages, scalars) in [(5, 60, 3), (5, 600, 25), (20, 600, 6), (200, 20, 1)] {
         let long = plan(&[
             "grid.nodes=65",
             &format!("record.budget_mb={budget}"),

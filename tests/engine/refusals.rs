@@ -140,7 +140,7 @@ fn the_words_fit_what_was_written() {
             "title=5",
             "title",
             "5",
-            "a text of at most 200 characters, in quotes",
+            "of writing, in quotes",
         ),
         // Whole numbers.
         (
@@ -345,7 +345,7 @@ fn wrong(key: &Key, kind: usize, share: f64) -> Option<(String, f64)> {
             let one = all[(share * (all.len() - 1) as f64) as usize] as f64;
             (all[0] as f64, all[all.len() - 1] as f64, one)
         }
-        Kind::Text(_) | Kind::Choice(_) | Kind::Switch => return None,
+        Kind::Text(_) | Kind::Line(_) | Kind::Choice(_) | Kind::Switch => return None,
     };
     let is_whole = matches!(key.kind, Kind::Integer(..) | Kind::IntegerOf(_));
     let beyond = |size: f64| if is_whole { (size + 2.0).floor() } else { size };

@@ -221,6 +221,12 @@ fn every_number_key_refuses_what_is_no_number_or_out_of_range() {
         let key = keys::find(&path).unwrap();
         let bad: &[&str] = match key.kind {
             keys::Kind::Text(_) => &["1.0"],
+            keys::Kind::Line(_) => &[
+                "1.0",
+                r#""two\nlines""#,
+                r#""\u202ereversed""#,
+                r#""\u001b[31m""#,
+            ],
             keys::Kind::Number(..) => &["nan", "-inf", "inf", "\"x\"", "1e300", "true"],
             keys::Kind::EitherSign(..) => &["nan", "-inf", "inf", "\"x\"", "0.0", "-1e300", "true"],
             keys::Kind::NumberOrInf(..) => &["nan", "-inf", "-1.0", "0.0", "\"x\""],

@@ -98,6 +98,8 @@ impl Observer for Probe {
             RunEventKind::Set { key, value, .. } => format!("{key}={value}"),
             RunEventKind::Caption(text) => text.clone(),
             RunEventKind::NotConverged { residual } => format!("residual {residual}"),
+            // It lies between what is looked for here.
+            RunEventKind::CutShort => return Ok(()),
         };
         self.seen.lock().unwrap().events.push((event.step, what));
         Ok(())

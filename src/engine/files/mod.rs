@@ -7,4 +7,6 @@ mod write;
 
 pub use digest::{FnvHasher, fnv};
 pub use read::{open_plain, read_up_to};
-pub use write::{folder_of, identity, part_of, publish, sync_file, sync_folder, write_whole};
+pub use write::{
+    beside, folder_of, identity, part_of, publish, stem_beside, sync_file, sync_folder, write_whole,
+};

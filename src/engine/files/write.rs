@@ -22,13 +22,35 @@ pub fn folder_of(path: &Path) -> &Path {
 pub fn part_of(path: &Path) -> PathBuf {
     static COUNT: AtomicU64 = AtomicU64::new(0);
     let n = COUNT.fetch_add(1, Ordering::Relaxed);
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let mut name = format!("{stem}.part-{}-{n}", std::process::id());
+    beside(path, &format!("part-{}-{n}", std::process::id()))
+}
+
+/// A name beside `path` with the same ending and a word before it.
+pub fn beside(path: &Path, word: &str) -> PathBuf {
+    let mut name = format!("{}.{word}", stem_beside(path));
     if let Some(ending) = path.extension() {
         name.push('.');
         name.push_str(&ending.to_string_lossy());
     }
     path.with_file_name(name)
+}
+
+/// What names beside `path` begin with: its stem, of a long name as much as leaves room for the rest.
+pub fn stem_beside(path: &Path) -> String {
+    /// Bytes that file systems give a name, and that the word and its points take.
+    const NAME: usize = 255;
+    const WORD: usize = 40;
+    let mut stem = path
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let ending = path.extension().map_or(0, |ending| ending.len());
+    let room = NAME.saturating_sub(WORD + ending);
+    while stem.len() > room {
+        stem.pop();
+    }
+    stem
 }
 
 /// What two spellings of one file have in common: its path without links and dots.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use placed::{Claim, Left, Overwrite, Placed, is_free, leftovers};
+pub use placed::{Claim, Left, Overwrite, Placed, is_free, leftovers, stopped_of};
 pub use queue_stats::QueueStats;
 
 use crate::scene::Scene;
@@ -83,6 +83,8 @@ pub enum RunEventKind {
         /// Residual.
         residual: f64,
     },
+    /// The run ends before its time: a file that was to be replaced stays, and what there is lies beside it.
+    CutShort,
 }
 
 /// An output that failed.

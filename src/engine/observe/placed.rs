@@ -4,6 +4,7 @@
 //! |---|---|---|---|
 //! | nothing | until something came beside it, as `NAME.part-PID-N.ENDING`; then under its name | under its name; gone if nothing came | the same |
 //! | a file, `--force` | beside it, as `NAME.part-PID-N.ENDING` | in place of it; it stays if nothing came | the old file; the new one beside it |
+//! | the same, of a run that was stopped | | the old file; the new one as `NAME.stopped.ENDING` | |
 //! | a device | in it | | |
 //!
 //! A file that another run is writing is refused, by a lock that ends with its process. A killed run leaves a name free
@@ -19,7 +20,8 @@ use std::time::{Duration, Instant};
 
 use super::ObserveError;
 use crate::files::{
-    folder_of, identity, open_plain, part_of, publish, sync_file, sync_folder, write_whole,
+    beside, folder_of, identity, open_plain, part_of, publish, stem_beside, sync_file, sync_folder,
+    write_whole,
 };
 
 /// How long a run waits for others that are behind it to give way: one that does not has the name already.
@@ -214,6 +216,11 @@ fn is_pipe(_there: &std::fs::Metadata) -> bool {
     false
 }
 
+/// Where the output of a stopped run goes whose name a whole one has: `run.stopped.rrd`.
+pub fn stopped_of(path: &Path) -> PathBuf {
+    beside(path, "stopped")
+}
+
 /// Whether nothing has a name, and no run is writing a file that will have it.
 pub fn is_free(path: &Path) -> bool {
     !path.exists() && others(path).next().is_none()
@@ -249,8 +256,7 @@ fn others(target: &Path) -> impl Iterator<Item = OsString> {
 
 /// Names of the parts of a file, and whether somebody holds them.
 fn parts(target: &Path) -> impl Iterator<Item = (OsString, bool)> {
-    let stem = target.file_stem().unwrap_or_default().to_string_lossy();
-    let begins = format!("{stem}.part-");
+    let begins = format!("{}.part-", stem_beside(target));
     let entries = std::fs::read_dir(folder_of(target)).into_iter().flatten();
     entries.flatten().filter_map(move |entry| {
         let name = entry.file_name();
@@ -306,6 +312,8 @@ pub struct Placed {
     holds_something: bool,
     name: Name,
     is_settled: bool,
+    /// It is not whole: what it was to replace is worth more.
+    is_cut_short: bool,
 }
 
 impl Placed {
@@ -317,6 +325,7 @@ impl Placed {
             holds_something: false,
             name: Name::Taken,
             is_settled: false,
+            is_cut_short: false,
         }
     }
 
@@ -386,6 +395,17 @@ impl Placed {
         Ok(())
     }
 
+    /// The run that writes it has been stopped before its end.
+    pub fn cut_short(&mut self) {
+        self.is_cut_short = true;
+    }
+
+    /// Where it lies beside the whole file that it was to replace; `None`: it has its name.
+    pub fn set_aside(&self) -> Option<&Path> {
+        let is_aside = self.is_settled && self.is_cut_short && self.name == Name::Taken;
+        is_aside.then_some(&*self.at)
+    }
+
     /// Leaves it where it is: it has failed, and what it replaces is worth more.
     pub fn leave(&mut self) -> Left {
         if !self.holds_something && self.name != Name::Device {
@@ -417,6 +437,10 @@ impl Placed {
         sync_file(&self.at)?;
         if self.at == self.target {
             sync_folder(folder_of(&self.at));
+        } else if self.is_cut_short {
+            let aside = stopped_of(&self.target);
+            publish(&self.at, &aside, true)?;
+            self.at = aside;
         } else {
             publish(&self.at, &self.target, true)?;
         }
@@ -445,6 +469,11 @@ impl Claim {
     /// Its name in messages.
     pub fn name(&self) -> String {
         self.path.display().to_string()
+    }
+
+    /// The run that it is of has been stopped before its end.
+    pub fn cut_short(&mut self) {
+        self.placed.cut_short();
     }
 
     /// Writes the file whole or not at all.

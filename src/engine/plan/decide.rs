@@ -210,7 +210,8 @@ pub(super) fn symmetry(scene: &Scene) -> Symmetry {
 
 pub(super) fn time_dependence(scene: &Scene) -> TimeDependence {
     let surfaces = scene.surfaces();
-    if scene.events.iter().any(|event| !event.set.is_empty()) {
+    // A caption alone is a moment, too: one solution would have none for it.
+    if !scene.events.is_empty() {
         TimeDependence::Transient
     } else if surfaces.iter().all(|surface| surface.is_smooth()) {
         TimeDependence::Steady {
@@ -223,6 +224,16 @@ pub(super) fn time_dependence(scene: &Scene) -> TimeDependence {
     } else {
         TimeDependence::Transient
     }
+}
+
+/// Events after the end of a run of that distance.
+pub(super) fn late_events(scene: &Scene, distance_m: f64) -> impl Iterator<Item = Warning> {
+    let end_s = distance_m / scene.motion.entrainment_m_s.abs();
+    let late = scene.events.iter().filter(move |event| event.at_s > end_s);
+    late.map(move |event| Warning::LateEvent {
+        at_s: event.at_s,
+        end_s,
+    })
 }
 
 pub(super) fn traction_deflection(scene: &Scene) -> Option<TractionDeflection> {

@@ -272,14 +272,15 @@ impl Plan {
         let resolution = Resolution::new(&waves, scene, order);
         warnings.extend(resolution.warnings(&KnobsAt::of(scene, film.as_ref())));
         let time_dependence = decide::time_dependence(scene);
-        warnings.extend(surfaces::doubts(scene, hertz.a_m.min(hertz.b_m)));
         let steps_per_passage = (4.0 * hertz.a_m / step_m).round().max(1.0) as u64;
         let distance_m = scene.time.passages * PASSAGE_A * hertz.a_m;
+        let doubts = surfaces::doubts(scene, hertz.a_m.min(hertz.b_m));
+        warnings.extend(doubts.chain(decide::late_events(scene, distance_m)));
         let steps = match time_dependence {
             TimeDependence::Steady { .. } => 1,
             TimeDependence::Transient => (distance_m / step_m).ceil() as u64,
         };
-        let mut plan = Self {
+        let plan = Self {
             title: scene.title.clone(),
             kind,
             hertz,
@@ -314,17 +315,25 @@ impl Plan {
                 time_s: 0.0,
             },
         };
-        plan.life = scene.life.as_ref().map(|life| {
+        plan.with_outputs(scene)
+    }
+
+    /// Life, recording, what is left out, cost: by the rest of the plan.
+    fn with_outputs(mut self, scene: &Scene) -> Result<Self, PlanError> {
+        self.life = scene.life.as_ref().map(|life| {
             let measure = scene
                 .stress
                 .as_ref()
                 .map_or(StressMeasure::VonMises, |s| s.measure);
-            plan.life_plan(life, measure)
+            self.life_plan(life, measure)
         });
-        plan.record = scene.record.as_ref().map(|record| plan.record_plan(record));
-        plan.left_out = decide::left_out(scene, &plan);
-        plan.cost = plan.estimate();
-        Ok(plan)
+        if let Some(record) = &scene.record {
+            recording::check(self.kind, self.domain.nodes, record)?;
+            self.record = Some(self.record_plan(record));
+        }
+        self.left_out = decide::left_out(scene, &self);
+        self.cost = self.estimate();
+        Ok(self)
     }
 
     /// Whether oil flows at the scene's own speed and load; else every step is that of a dry contact.

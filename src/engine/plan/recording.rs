@@ -1,14 +1,23 @@
 //! How often a recording takes a step's fields and its scalars, so that it keeps to its budget: what the recorder begins
 //! with, and what `asperity check` says before.
 
-use crate::scene::Record;
+use super::PlanError;
+use crate::scene::{ContactKind, Record};
 
 /// Bytes of the scalars of a step, compressed: the curves and a row of the whole catalogue (1125 were measured).
 pub const SCALARS_BYTES: f64 = 1.15e3;
 /// Part of what is left that scalars may take in the scene's own run.
 pub const SCALARS_SHARE: f64 = 0.5;
-/// Layout, footer and the first chunk of every entity, bytes (some 630 kB were measured).
-pub const ALWAYS_BYTES: f64 = 6.6e5;
+/// Layout, footer and the first chunk of every entity, bytes (some 800 kB were measured).
+pub const ALWAYS_BYTES: f64 = 8.5e5;
+/// What a recording takes at the least: all of that with the pictures that a run begins and ends with, and the least series.
+/// Bytes always, and for every node of the grid, of a line for every node along it (with `record.budget_mb = 1.5` or less,
+/// before such budgets were refused: 1.49 to 1.63 MB on 65², 1.60 to 1.67 on 129², 2.00 on 257²; lines of 257, 513 and 1025
+/// nodes 1.73, 2.31 and 3.46).
+const LEAST_BYTES: f64 = 1.6e6;
+const LEAST_PER_NODE: f64 = 9.0;
+const LEAST_OF_LINE_BYTES: f64 = 1.15e6;
+const LEAST_PER_NODE_OF_LINE: f64 = 2.4e3;
 /// Part of the budget for the scene's own run; the rest is for what may come after it.
 pub const OWN_SHARE: f64 = 0.9;
 
@@ -56,6 +65,27 @@ impl RecordingRhythm {
 pub fn left_bytes(record: &Record, spent_bytes: f64) -> f64 {
     let budget = record.budget_mb * 1e6;
     (OWN_SHARE * budget - spent_bytes).max(1e-3 * budget)
+}
+
+/// Refuses a budget that not even a recording of the first and the last picture keeps.
+pub(super) fn check(kind: ContactKind, nodes: usize, record: &Record) -> Result<(), PlanError> {
+    let n = nodes as f64;
+    let least_bytes = match kind {
+        ContactKind::Point => LEAST_BYTES + LEAST_PER_NODE * n * n,
+        ContactKind::Line => LEAST_OF_LINE_BYTES + LEAST_PER_NODE_OF_LINE * n,
+    };
+    // Rounded up: what is said to be allowed is.
+    let least_mb = (least_bytes * 1e-5).ceil() / 10.0;
+    if record.budget_mb >= least_mb {
+        return Ok(());
+    }
+    Err(PlanError::Refused {
+        key: "record.budget_mb".to_owned(),
+        value: format!("{} MB", record.budget_mb),
+        allowed: format!(
+            "at least {least_mb:.1} MB on {nodes} nodes per side: layout, the first and the last pictures take that"
+        ),
+    })
 }
 
 impl RecordPlan {

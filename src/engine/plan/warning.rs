@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::Valleys;
-use crate::math::number::fixed;
+use crate::math::number::{fixed, sig};
 use crate::scene::{ContactKind, Doubt, Scene, unusual};
 
 /// A stage that is left out.
@@ -120,6 +120,18 @@ pub enum Warning {
         film_m: f64,
         /// Whether the oil can leave.
         valleys: Valleys,
+    },
+    /// An event after the end of the run.
+    #[error(
+        "a run of {} ms ends before the event at {} ms; a longer one (time.passages) reaches it",
+        sig(1e3 * end_s, 3),
+        sig(1e3 * at_s, 3)
+    )]
+    LateEvent {
+        /// When, s.
+        at_s: f64,
+        /// End of the run, s.
+        end_s: f64,
     },
     /// The stress integral is cut off.
     #[error("stress.depth_max_a = {depth_max_a} cuts the life integral short; use 2 or more")]

@@ -4,6 +4,7 @@
 use toml::{Table, Value};
 
 use super::Knob;
+use super::error::drives_a_terminal;
 use super::error::{SceneError, nearest};
 use super::keys::{self, EVENT_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
 use super::model::{Event, Scene, Surface};
@@ -184,6 +185,9 @@ fn check_settings(path: &str, value: &mut Value) -> Result<(), SceneError> {
 fn check_value(full: &str, key: &Key, value: &mut Value) -> Result<(), SceneError> {
     let fits = match key.kind {
         Kind::Text(longest) => (value.as_str()).is_some_and(|text| text.chars().count() <= longest),
+        Kind::Line(longest) => (value.as_str()).is_some_and(|text| {
+            text.chars().count() <= longest && !text.chars().any(drives_a_terminal)
+        }),
         Kind::Number(..) | Kind::EitherSign(..) | Kind::NumberOrInf(..) => {
             if let Value::Integer(whole) = *value {
                 *value = Value::Float(whole as f64);

@@ -106,13 +106,27 @@ fn suggestion(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |key| format!("; did you mean {key}?"))
 }
 
+/// Whether a character controls a terminal, breaks a line, or turns the direction of what is written after it.
+pub fn drives_a_terminal(c: char) -> bool {
+    c.is_control()
+        || matches!(
+            c,
+            '\u{61c}'
+                | '\u{200e}'
+                | '\u{200f}'
+                | '\u{2028}'..='\u{202e}'
+                | '\u{2066}'..='\u{2069}'
+                | '\u{feff}'
+        )
+}
+
 /// At most 60 characters of a text, control characters escaped.
 pub(crate) fn shortened(text: &str) -> String {
     const LONGEST: usize = 60;
     let clean: String = text
         .chars()
         .take(LONGEST + 1)
-        .map(|c| if c.is_control() { ' ' } else { c })
+        .map(|c| if drives_a_terminal(c) { ' ' } else { c })
         .collect();
     if clean.chars().count() > LONGEST {
         let head: String = clean.chars().take(LONGEST).collect();

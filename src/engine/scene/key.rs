@@ -5,6 +5,8 @@
 pub enum Kind {
     /// Text of at most so many characters.
     Text(usize),
+    /// The same in one line, without characters that control a terminal or turn the direction of writing.
+    Line(usize),
     /// A finite number between two bounds, both included.
     Number(f64, f64),
     /// A finite number of either sign whose size lies between two bounds, both included and above 0.

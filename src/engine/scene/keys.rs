@@ -16,7 +16,7 @@ pub struct Section {
     pub keys: &'static [Key],
 }
 
-use Kind::{Choice, EitherSign, Integer, IntegerOf, Number, NumberOrInf, Switch, Text};
+use Kind::{Choice, EitherSign, Integer, IntegerOf, Line, Number, NumberOrInf, Switch, Text};
 use Need::{Defaulted, Optional, Required};
 
 use super::lubricant::{Cavitation, DensityLaw, EyringFlow, Rheology, ViscosityLaw};
@@ -55,7 +55,7 @@ pub const SECTIONS: &[Section] = &[
         need: Required,
         doc: "",
         keys: &[
-            key("title", "", Text(200), Defaulted, "one line naming the scene"),
+            key("title", "", Line(200), Defaulted, "one line naming the scene"),
             key("about", "", Text(4000), Defaulted, "what is looked at, and where the numbers come from"),
         ],
     },
@@ -229,7 +229,7 @@ impl Kind {
             Number(min, max) => (min..=max).contains(&number),
             EitherSign(min, max) => (min..=max).contains(&number.abs()),
             NumberOrInf(min, max) => (min..=max).contains(&number) || number == f64::INFINITY,
-            Text(_) | Integer(..) | IntegerOf(_) | Choice(_) | Switch => false,
+            Text(_) | Line(_) | Integer(..) | IntegerOf(_) | Choice(_) | Switch => false,
         }
     }
 
@@ -238,7 +238,7 @@ impl Kind {
         match *self {
             EitherSign(min, max) if home < 0.0 => Some((-max, -min)),
             Number(min, max) | EitherSign(min, max) | NumberOrInf(min, max) => Some((min, max)),
-            Text(_) | Integer(..) | IntegerOf(_) | Choice(_) | Switch => None,
+            Text(_) | Line(_) | Integer(..) | IntegerOf(_) | Choice(_) | Switch => None,
         }
     }
 
@@ -246,7 +246,7 @@ impl Kind {
     pub fn is_choice(&self, word: &str) -> bool {
         match *self {
             Choice(words) => words.contains(&word),
-            Text(_) | Number(..) | EitherSign(..) | NumberOrInf(..) | Integer(..)
+            Text(_) | Line(_) | Number(..) | EitherSign(..) | NumberOrInf(..) | Integer(..)
             | IntegerOf(_) | Switch => false,
         }
     }
@@ -262,6 +262,9 @@ impl Key {
         };
         match self.kind {
             Text(longest) => format!("a text of at most {longest} characters"),
+            Line(longest) => format!(
+                "one line of at most {longest} characters, none of which controls a terminal or turns the direction of writing"
+            ),
             Number(min, max) => format!("{} to {}{unit}", short(min), short(max)),
             EitherSign(min, max) => format!(
                 "{} to {}{unit}, or {} to {}{unit}; never 0",

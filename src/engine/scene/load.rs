@@ -151,9 +151,17 @@ impl Scene {
         if let Some(preset) = presets::find(name_or_path) {
             return Self::from_toml_with(preset.toml, name_or_path, overrides);
         }
-        let text = read(name_or_path)?;
-        let folder = Path::new(name_or_path).parent().unwrap_or(Path::new(""));
-        Self::parsed(&text, name_or_path, overrides, folder)
+        Self::load_file_with(Path::new(name_or_path), overrides)
+    }
+
+    /// A TOML file by its path, which need not be text, with keys set on top.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn load_file_with(path: &Path, overrides: &[Override]) -> Result<Self, SceneError> {
+        let text = read(path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parsed(&text, &path.to_string_lossy(), overrides, folder)
     }
 
     /// A scene from TOML text.
@@ -288,8 +296,9 @@ fn syntax_in(text: &str, origin: &str, error: &toml::de::Error) -> SceneError {
 }
 
 /// Reads a scene file, but never more than a scene can be.
-fn read(path: &str) -> Result<String, SceneError> {
-    let has_extension = std::path::Path::new(path).extension().is_some();
+fn read(file: &Path) -> Result<String, SceneError> {
+    let path = &*file.to_string_lossy();
+    let has_extension = file.extension().is_some();
     let looks_like_a_path = has_extension || path.contains(['/', '\\']);
     let failed = |error: std::io::Error| {
         if error.kind() == std::io::ErrorKind::NotFound && !looks_like_a_path {
@@ -305,7 +314,7 @@ fn read(path: &str) -> Result<String, SceneError> {
             reason: error.to_string(),
         }
     };
-    let bytes = read_up_to(Path::new(path), LONGEST_FILE).map_err(failed)?;
+    let bytes = read_up_to(file, LONGEST_FILE).map_err(failed)?;
     if bytes.len() as u64 > LONGEST_FILE {
         return Err(SceneError::Read {
             path: path.to_owned(),

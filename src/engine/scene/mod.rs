@@ -25,7 +25,7 @@ mod tooth;
 mod wrong;
 
 pub(crate) use derived::side_m;
-pub use error::SceneError;
+pub use error::{SceneError, drives_a_terminal};
 pub use knob::{Knob, KnobLine, RampRate, Reach, Steps};
 pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread};
 pub use load::Override;

@@ -66,8 +66,8 @@ fn shown(key: &Key, value: &Value) -> String {
 
 fn allowed(key: &Key, value: &Value) -> String {
     match (key.kind, value) {
-        (Kind::Choice(_), _) | (Kind::Text(_), Value::String(_)) => key.allowed(),
-        (Kind::Text(_), _) => format!("{}, in quotes", key.allowed()),
+        (Kind::Choice(_), _) | (Kind::Text(_) | Kind::Line(_), Value::String(_)) => key.allowed(),
+        (Kind::Text(_) | Kind::Line(_), _) => format!("{}, in quotes", key.allowed()),
         (_, Value::Integer(number)) => beyond(key, *number as f64),
         (_, Value::Float(number)) => of_number(key, *number),
         (_, Value::String(text)) => of_text(key, text),
@@ -275,6 +275,7 @@ impl Key {
         match self.kind {
             Kind::Integer(..) | Kind::IntegerOf(_) => true,
             Kind::Text(_)
+            | Kind::Line(_)
             | Kind::Number(..)
             | Kind::EitherSign(..)
             | Kind::NumberOrInf(..)
@@ -290,6 +291,7 @@ impl Key {
             Kind::Integer(min, max) => whole as f64 == number && (min..=max).contains(&whole),
             Kind::IntegerOf(values) => whole as f64 == number && values.contains(&whole),
             Kind::Text(_)
+            | Kind::Line(_)
             | Kind::Number(..)
             | Kind::EitherSign(..)
             | Kind::NumberOrInf(..)

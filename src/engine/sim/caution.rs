@@ -9,6 +9,7 @@
 //! short_domain   the same by the edges of the domain > 1 %                      likewise
 //! long_step, coarse_wave, coarse_convected_wave, coarse_counting, crests_at_edge, shallow_stress
 //!                what the plan warns of                                         at the knobs' present values
+//! late_event     an event of the scene after the end of its run: of a run, not of a step
 //! map_not_seen   a height map of which a part has not passed yet
 //! oil_law        mean shear stress of the film > Eyring's, of oil that flows        likewise
 //! crests_not_felt  crests that press less than a thousandth of Hertz's pressure, or of which material points count less than
@@ -26,7 +27,7 @@ use super::{Frame, Grounds, LifeEstimate, Metrics, Rhythm};
 use crate::math::number::{fixed, sig};
 use crate::physics::felt::{FELT, felt_where_counted};
 use crate::physics::strength::Strength;
-use crate::plan::{EDGES_WORTH_A_WORD, KnobsAt, MOLECULE_M, Warning};
+use crate::plan::{EDGES_WORTH_A_WORD, KnobsAt, MOLECULE_M, Plan, Warning};
 use crate::scene::{Doubt, StressMeasure};
 
 /// Kind of caution, as scripts read it.
@@ -63,6 +64,8 @@ pub enum CautionCode {
     CrestsAtEdge,
     /// The stress volume cuts the life integral short.
     ShallowStress,
+    /// An event comes after the end of the run.
+    LateEvent,
     /// A part of a height map has not passed yet.
     MapNotSeen,
     /// A body stands (|S| = 2): lives are in the other's cycles, or the other's alone.
@@ -154,6 +157,23 @@ pub(super) fn list(m: &Metrics, grounds: &Grounds) -> Vec<Caution> {
     say(CautionCode::StrengthUnknown, strength_unknown(grounds));
     say(CautionCode::ElasticOnly, Some(elastic_only(grounds)));
     list
+}
+
+/// The same of a run by that plan: with its events that never came.
+pub(super) fn of_run(m: &Metrics, grounds: &Grounds, plan: &Plan) -> Vec<Caution> {
+    let mut all = list(m, grounds);
+    let late = plan
+        .warnings
+        .iter()
+        .filter(|warning| matches!(warning, Warning::LateEvent { .. }));
+    let late = late.map(|warning| Caution {
+        code: CautionCode::of(warning),
+        text: warning.to_string(),
+    });
+    // What every run leaves out stays the last.
+    let last = all.len().saturating_sub(1);
+    all.splice(last..last, late);
+    all
 }
 
 fn gpa(value_pa: f64) -> String {
@@ -322,6 +342,7 @@ impl CautionCode {
             Warning::CoarseCounting { .. } => Self::CoarseCounting,
             Warning::LongStep { .. } => Self::LongStep,
             Warning::NoFilm { .. } => Self::FilmBelowMolecule,
+            Warning::LateEvent { .. } => Self::LateEvent,
             Warning::ShallowStress { .. } => Self::ShallowStress,
         }
     }

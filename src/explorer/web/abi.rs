@@ -190,10 +190,10 @@ pub extern "C" fn spoken() {
     give(on_page(|page| page.spoken().into_bytes()).unwrap_or_default());
 }
 
-/// What the lesson says now, in lines: its title, its words, the answers it waits for; nothing without a lesson.
+/// What a lesson or the scene says now, in lines: who, its title, its words, its numbers, the answers it waits for; or nothing.
 #[unsafe(no_mangle)]
-pub extern "C" fn lesson() {
-    give(on_page(|page| page.lesson().into_bytes()).unwrap_or_default());
+pub extern "C" fn caption() {
+    give(on_page(|page| page.caption().into_bytes()).unwrap_or_default());
 }
 
 /// The link to what is shown now.

@@ -207,13 +207,15 @@ impl WebPage {
         words
     }
 
-    /// The lesson that is on: lines of its title, its words, and the answers that it waits for; nothing without one.
-    pub(super) fn lesson(&self) -> String {
-        let Some(lesson) = view::lesson(&self.explorer.app) else {
+    /// What a lesson or the scene says: lines of `lesson` or `scene`, its title, its words, its numbers, and the answers that
+    /// it waits for; nothing where nothing is said.
+    pub(super) fn caption(&self) -> String {
+        let Some(says) = view::caption_words(&self.explorer.app) else {
             return String::new();
         };
-        let lines = [lesson.title, lesson.words].into_iter();
-        let lines = lines.chain(lesson.answers);
+        let who = if says.is_lesson { "lesson" } else { "scene" };
+        let lines = [who.to_owned(), says.title, says.words, says.figures].into_iter();
+        let lines = lines.chain(says.answers);
         let lines: Vec<String> = lines.map(|line| line.replace('\n', " ")).collect();
         lines.join("\n")
     }
@@ -371,23 +373,26 @@ mod tests {
     }
 
     #[test]
-    fn a_lesson_gives_its_words_and_answers_to_the_page() {
+    fn what_a_lesson_says_and_takes_is_given_to_the_page() {
         let mut page = page("nodes=33");
-        assert_eq!(page.lesson(), "");
+        let begins = page.caption();
+        assert!(begins.starts_with("scene\nto begin\n"), "{begins}");
         press(&mut page, KeyName::Char('t'));
         press(&mut page, KeyName::Enter);
-        let asked = page.lesson();
-        let lines: Vec<&str> = asked.lines().collect();
+        let asked = page.caption();
+        let lines: Vec<&str> = asked.split('\n').collect();
         assert!(
-            lines[0].starts_with("1/10") && lines[1].contains("How often"),
+            lines[0] == "lesson" && lines[1].starts_with("1/10") && lines[2].contains("How often"),
             "{asked}"
         );
-        assert!(lines.len() >= 4, "{asked}");
+        // What gives the answer away is not told before.
+        assert_eq!(lines[3], "");
+        assert!(lines.len() >= 6, "{asked}");
         // What is answered is not asked any more.
         press(&mut page, KeyName::Char('1'));
-        assert_eq!(page.lesson().lines().count(), 2, "{}", page.lesson());
+        assert_eq!(page.caption().split('\n').count(), 4, "{}", page.caption());
         press(&mut page, KeyName::Char('T'));
-        assert_eq!(page.lesson(), "");
+        assert!(!page.caption().starts_with("lesson"), "{}", page.caption());
     }
 
     #[test]

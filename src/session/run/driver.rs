@@ -16,7 +16,7 @@ use super::outputs::Outputs;
 use super::request::{Ending, Request};
 use super::settled::Gather;
 use crate::FramePool;
-use asperity_engine::observe::{Began, RunContext};
+use asperity_engine::observe::{Began, RunContext, RunEventKind};
 use asperity_engine::scene::{Event, Scene};
 use asperity_engine::sim::{Frame, SimError, Simulation, StepError};
 
@@ -200,6 +200,9 @@ impl Driver {
             let (end, sim) = self.go(make);
             if let Some(sim) = &sim {
                 checkpoint = Some(self.checkpoint(sim));
+                if !matches!(end, End::Done) && self.ending != Ending::OnStop {
+                    self.announce(sim, RunEventKind::CutShort);
+                }
             }
             let is_live = self.ending == Ending::OnStop;
             if let Some(sim) = sim.filter(|_| is_live || self.is_on_top()) {

@@ -136,6 +136,7 @@ fn takes_whole_numbers(kind: keys::Kind) -> bool {
     match kind {
         keys::Kind::Integer(..) | keys::Kind::IntegerOf(_) => true,
         keys::Kind::Text(_)
+        | keys::Kind::Line(_)
         | keys::Kind::Number(..)
         | keys::Kind::EitherSign(..)
         | keys::Kind::NumberOrInf(..)

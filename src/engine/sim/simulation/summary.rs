@@ -25,7 +25,7 @@ pub(super) fn summary(sim: View, stats: &Stats) -> Summary {
         a_m: hertz.a_m * size,
         p_hertz_pa: hertz.p_max_pa * size,
         life_smooth: life_smooth(sim),
-        cautions: caution::list(m, &grounds(sim.plan, sim.state)),
+        cautions: caution::of_run(m, &grounds(sim.plan, sim.state), &sim.plan.decided),
         counters: *stats,
         map_body_1: sim.plan.decided.maps[0].clone(),
         map_body_2: sim.plan.decided.maps[1].clone(),

@@ -293,10 +293,15 @@ impl App {
         self.view.medium = medium;
     }
 
+    /// Whether a page shows the screen: what it has buttons and letters of its own for is not drawn.
+    pub(crate) fn is_page(&self) -> bool {
+        self.view.medium == Medium::Page
+    }
+
     /// Whether map and curves are left to a page's own pixels, and nothing lies over them.
     pub(crate) fn is_in_pixels(&self) -> bool {
         let covered = self.view.overlay != Overlay::None || self.fault().is_some();
-        self.view.medium == Medium::Page && self.view.theme.paints() && !covered
+        self.is_page() && self.view.theme.paints() && !covered
     }
 
     /// The map that is shown.

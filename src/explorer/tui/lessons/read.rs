@@ -12,6 +12,7 @@ use crate::tui::dial::{Dial, dials};
 use crate::tui::kinds::{MapKind, PanelKind, PointQuantity};
 use asperity_engine::files::read_up_to;
 use asperity_engine::plan::Plan;
+use asperity_engine::scene::drives_a_terminal;
 use asperity_engine::scene::{Knob, SceneError, presets};
 
 /// Longest file, bytes.
@@ -177,7 +178,7 @@ impl Lesson {
 fn words(key: impl Into<String>, text: &str, most: usize) -> LessonRead<String> {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let fits = (1..=most).contains(&line.chars().count());
-    if fits && !line.chars().any(char::is_control) {
+    if fits && !line.chars().any(drives_a_terminal) {
         return Ok(line);
     }
     refused(

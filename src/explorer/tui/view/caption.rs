@@ -87,33 +87,38 @@ pub(super) fn of(app: &App) -> Option<Caption> {
     })
 }
 
-/// What a lesson says now, for who hears it, and the answers it takes, for buttons.
-pub struct LessonWords {
-    /// Lesson and beat.
+/// What a page writes in its own letters in place of the caption's lines.
+pub struct CaptionWords {
+    /// Whether a lesson says it, which goes on and back.
+    pub is_lesson: bool,
+    /// Lesson and beat, or who says it.
     pub title: String,
-    /// Its question, or what it shows or tells, with its numbers.
+    /// The question, or what is shown or told.
     pub words: String,
+    /// The numbers that the words speak of, as they are now.
+    pub figures: String,
     /// What answers the question; empty: nothing is asked.
     pub answers: Vec<String>,
 }
 
-/// The same of the lesson that is on; `None`: there is none.
-pub(super) fn lesson(app: &App) -> Option<LessonWords> {
-    let tour = app.lesson.tour.as_ref()?;
+/// The same; `None`: there is nothing to say.
+pub(super) fn in_words(app: &App) -> Option<CaptionWords> {
     let caption = of(app)?;
-    let asked = tour.beat().question.as_ref();
-    let asked = asked.filter(|_| tour.phase == TourPhase::Asks);
+    let tour = app.lesson.tour.as_ref();
+    let asked = tour.filter(|tour| tour.phase == TourPhase::Asks);
+    let asked = asked.and_then(|tour| tour.beat().question.as_ref());
     let words = match asked {
         Some(question) => question.ask.clone(),
         None => {
             let words = caption.words.iter().map(|(text, _)| text.as_str());
-            let words = words.collect::<Vec<_>>().join(" ");
-            format!("{words}{}", caption.figures)
+            words.collect::<Vec<_>>().join(" ")
         }
     };
-    Some(LessonWords {
+    Some(CaptionWords {
+        is_lesson: tour.is_some(),
         title: caption.title,
         words,
+        figures: caption.figures.trim().to_owned(),
         answers: asked.map_or_else(Vec::new, |question| question.answers.clone()),
     })
 }

@@ -112,9 +112,12 @@ fn hints(app: &App) -> Vec<FooterKey> {
         Overlay::Help | Overlay::Plan => return vec![key("Esc", "close", Action::Close)],
         Overlay::None => {}
     }
-    let quit = key("q", "quit", Action::Quit);
-    let mut hints = vec![key("?", "keys", Action::Help), quit];
-    if app.lesson.tour.is_some() {
+    let mut hints = vec![key("?", "keys", Action::Help)];
+    // A page is closed as pages are, and has buttons for the lessons.
+    if !app.is_page() {
+        hints.push(key("q", "quit", Action::Quit));
+    }
+    if app.lesson.tour.is_some() && !app.is_page() {
         hints.push(key("n", "go on", Action::NextBeat));
         hints.push(key("N", "back", Action::PreviousBeat));
         hints.push(key("T", "end lesson", Action::EndTour));
@@ -152,6 +155,9 @@ fn hints(app: &App) -> Vec<FooterKey> {
 pub(super) fn recorder(app: &App) -> Line<'static> {
     let theme = app.view.theme;
     let Some(recorder) = &app.run.status.recorder else {
+        if app.is_page() {
+            return Line::default();
+        }
         return theme.line("not recording ", Role::Dim);
     };
     let (word, role) = match recorder.activity {

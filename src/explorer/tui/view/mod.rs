@@ -29,12 +29,12 @@ use crate::tui::event::{Pointer, PointerAct};
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
 pub use areas::{Areas, MIN_NARROW_SCREEN, MIN_SCREEN, PanelSpacing};
-pub use caption::LessonWords;
+pub use caption::CaptionWords;
 use place::rows;
 
 /// The panels of the screen as it is now.
 fn areas_of(app: &App, screen: Rect) -> Option<Areas> {
-    let caption_rows = caption::of(app).map_or(0, |caption| caption.rows(screen.width));
+    let caption_rows = caption_of(app).map_or(0, |caption| caption.rows(screen.width));
     let mut areas = Areas::of(screen, caption_rows)?.with_picture(app.view.focus);
     if app.why().is_some() {
         areas = areas.with_a_line();
@@ -105,7 +105,7 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
         map::render(ghost, &Areas { map, ..areas }, buffer);
     }
     status::render(app, &areas, buffer);
-    if let Some(caption) = caption::of(app) {
+    if let Some(caption) = caption_of(app) {
         caption::render(app, &caption, areas.caption, buffer);
     }
     let body = rows(screen, 1, screen.height - areas.status.height - 1);
@@ -123,9 +123,14 @@ fn draw_panels(app: &App, screen: Rect, buffer: &mut Buffer) -> Vec<PixelPlot> {
     plots
 }
 
-/// What a lesson says now, for who hears it; `None`: there is none.
-pub fn lesson(app: &App) -> Option<LessonWords> {
-    caption::lesson(app)
+/// What a lesson or the scene says now, for a page that writes it itself; `None`: nothing.
+pub fn caption_words(app: &App) -> Option<CaptionWords> {
+    caption::in_words(app)
+}
+
+/// The caption, where it is the screen's to write.
+fn caption_of(app: &App) -> Option<caption::Caption> {
+    caption::of(app).filter(|_| !app.is_page())
 }
 
 /// The cells that the terminal's own pixels fill; `None`: none, or something lies over them.
