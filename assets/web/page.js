@@ -10,6 +10,7 @@ const painter = new Painter(screen_);
 const state = { firstLifeMs: null, spoken: "", steps: 0, seconds: 0, bytes: 0, nodes: 129, link: "", caption: "", broken: null, refused: null };
 let worker = null;
 let isInstead = false;
+let isHeld = false;
 
 function module_() {
   const inline = at("module");
@@ -50,6 +51,7 @@ function heed() {
 function hear(event) {
   const m = event.data;
   if (m.loaded) open();
+  if (m.resized) painter.begin(m.resized);
   if (m.opened) {
     painter.begin(m.opened);
     // What opens in the place of a refused link leaves its reason on the page.
@@ -113,7 +115,8 @@ function news(m) {
 
 // What a lesson or the scene says, in the page's own letters; its answers as buttons.
 function teach(caption) {
-  if (caption === state.caption) return;
+  // Nothing moves under a finger that turns a knob.
+  if (caption === state.caption || isHeld) return;
   state.caption = caption;
   const [who, title, words, figures, ...answers] = caption.split("\n");
   at("lesson").hidden = !caption;
@@ -183,10 +186,12 @@ function watch() {
   screen_.addEventListener("pointerdown", (event) => {
     screen_.focus();
     heed();
+    isHeld = true;
     if (event.button === 0) { screen_.setPointerCapture(event.pointerId); point(0, event); }
     if (event.button === 2) point(2, event);
   });
   screen_.addEventListener("pointermove", (event) => event.buttons & 1 && point(1, event));
+  for (const end of ["pointerup", "pointercancel"]) screen_.addEventListener(end, () => { isHeld = false; });
   screen_.addEventListener("contextmenu", (event) => event.preventDefault());
   screen_.addEventListener("wheel", (event) => {
     event.preventDefault();

@@ -130,7 +130,7 @@ const hear = {
   },
   open: (m) => { put(m.link); opened(wasm.open(...m.screen), m.screen); },
   drop: (m) => { put(m.text); opened(wasm.drop_file(...m.screen), m.screen); },
-  resize: (m) => { wasm.resize(...m.screen); drawn = pictured = 0; isPainting = false; postMessage({ opened: m.screen }); },
+  resize: (m) => { wasm.resize(...m.screen); drawn = pictured = 0; isPainting = false; postMessage({ resized: m.screen }); },
   key: (m) => wasm.key(m.code, m.held),
   pointer: (m) => wasm.pointer(m.act, m.column, m.row),
   painted: () => { isPainting = false; },

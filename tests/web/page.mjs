@@ -126,6 +126,9 @@ await test("from a server, by touch, on a phone", async () => {
   const { rows, cellHeight, ratio, columns } = await page.evaluate(() => ({ ...asperity.painter }));
   console.log(`     ${columns} columns of ${rows} rows, ${(cellHeight / ratio).toFixed(1)} CSS pixels each`);
   assert.ok(cellHeight / ratio >= 11);
+  // The line that says how to begin has gone, and the screen has taken its room.
+  await page.waitForFunction(() => document.getElementById("lesson").hidden);
+  await page.waitForTimeout(500);
   // One picture, life and knobs, no more; a finger's width below the name moves the slider, along it too.
   const text = (await state(page)).text;
   assert.ok(/pressure/.test(text) && /life|rolling/.test(text) && !/material point|centre line/.test(text), text);
@@ -384,15 +387,16 @@ await test("life against S, as the native sweep finds it", async () => {
   const bySlide = (table) => table.sort((one, two) => one.slide_roll - two.slide_roll);
   bySlide(mine);
   bySlide(native);
-  assert.equal(mine.length, native.length);
-  assert.ok(mine.length >= 15, files[name]);
+  // Either may have been asked in the middle of refining.
+  const pairs = mine.map((row) => [row, native.find((other) => other.slide_roll === row.slide_roll)]).filter(([, other]) => other);
+  assert.ok(pairs.length >= 15, `${files[name]}\n${native.map((row) => row.slide_roll)}`);
   const isOwn = (row) => row.slide_roll === "0.5";
   let worst = 0;
-  for (const [i, row] of mine.entries()) {
+  for (const [row, other] of pairs) {
     for (const name of isOwn(row) ? [] : Object.keys(row)) {
-      const off = row[name] === native[i][name] ? 0 : Math.abs(row[name] / native[i][name] - 1);
+      const off = row[name] === other[name] ? 0 : Math.abs(row[name] / other[name] - 1);
       worst = Math.max(worst, off);
-      assert.ok(off <= 1e-4, `${name} at S ${row.slide_roll}: ${row[name]} and ${native[i][name]}`);
+      assert.ok(off <= 1e-4, `${name} at S ${row.slide_roll}: ${row[name]} and ${other[name]}`);
     }
   }
   // The run's own point is of the step at which its passage was seen to repeat, which depends on the screen's pace: its life is
