@@ -687,7 +687,8 @@ fn a_stopped_run_leaves_the_whole_one_that_it_was_to_replace() {
     let child = endless(folder, &forced);
     wait_until("rows of the second run", || {
         let parts = names(folder).into_iter();
-        let part = parts.filter(|name| name.contains(".part-") && name.ends_with(".csv"));
+        let is_table = |name: &str| Path::new(name).extension().is_some_and(|end| end == "csv");
+        let part = parts.filter(|name| name.contains(".part-") && is_table(name));
         part.map(|name| rows(&folder.join(name))).max() > Some(20)
     });
     signal(&child, "-INT");

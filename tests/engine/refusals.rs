@@ -136,12 +136,7 @@ fn the_words_fit_what_was_written() {
             "true",
             "a number, 1e-6 to 1e8 N",
         ),
-        (
-            "title=5",
-            "title",
-            "5",
-            "of writing, in quotes",
-        ),
+        ("title=5", "title", "5", "of writing, in quotes"),
         // Whole numbers.
         (
             "grid.nodes=65.0",

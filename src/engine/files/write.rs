@@ -45,7 +45,7 @@ pub fn stem_beside(path: &Path) -> String {
         .unwrap_or_default()
         .to_string_lossy()
         .into_owned();
-    let ending = path.extension().map_or(0, |ending| ending.len());
+    let ending = path.extension().map_or(0, std::ffi::OsStr::len);
     let room = NAME.saturating_sub(WORD + ending);
     while stem.len() > room {
         stem.pop();

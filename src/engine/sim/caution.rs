@@ -23,6 +23,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::grounds::ReferenceLife;
 use super::{Frame, Grounds, LifeEstimate, Metrics, Rhythm};
 use crate::math::number::{fixed, sig};
 use crate::physics::felt::{FELT, felt_where_counted};
@@ -403,7 +404,7 @@ fn not_settled(m: &Metrics, grounds: &Grounds) -> Option<String> {
     } else {
         "the average does not cover a whole period of these conditions yet: it still moves"
     };
-    let has_life = grounds.has_life && !grounds.no_reference;
+    let has_life = grounds.has_life && grounds.reference == ReferenceLife::Ends;
     (has_life && !settled).then(|| why.to_owned())
 }
 
@@ -438,7 +439,7 @@ fn crests_not_felt(m: &Metrics, grounds: &Grounds) -> Option<String> {
 }
 
 fn no_reference(grounds: &Grounds) -> Option<String> {
-    grounds.no_reference.then(|| {
+    (grounds.reference == ReferenceLife::ForEver).then(|| {
         "no life: the smooth contact, with which lives are compared, stays below the fatigue limit (life.limit_pa) and lives for \
          ever; a lower limit, or a model without one, gives a life"
             .to_owned()
@@ -593,7 +594,7 @@ mod tests {
                 (m.n_body_1, m.slide_roll) = (None, 2.0);
             }),
             (NoReference, "life.limit_pa", |m, g| {
-                (m.life, g.no_reference) = (None, true);
+                (m.life, g.reference) = (None, ReferenceLife::ForEver);
             }),
             // .04 of 1 GPa over 5 MPa
             (OilLaw, "8.0 times", |m, g| {
@@ -659,7 +660,7 @@ mod tests {
                 g.resolution = Some(coarse([24.0; 2], 1.0));
             }),
             (CrestsAtEdge, "1.500 µm", |_, g| {
-                g.crests_at_edge_m = Some(1.5e-6)
+                g.crests_at_edge_m = Some(1.5e-6);
             }),
             (ShallowStress, "stress.depth_max_a = 1.2", |_, g| {
                 g.shallow_stress_a = Some(1.2);

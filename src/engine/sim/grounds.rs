@@ -4,6 +4,16 @@ use crate::physics::strength::Strength;
 use crate::plan::Resolution;
 use crate::scene::{Doubt, StressMeasure};
 
+/// Life of the smooth contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ReferenceLife {
+    /// It ends, or is not known yet.
+    #[default]
+    Ends,
+    /// It stays below the fatigue limit and lives for ever: nothing is relative to it.
+    ForEver,
+}
+
 /// What cautions are drawn from beside the scalars of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Grounds {
@@ -43,8 +53,8 @@ pub struct Grounds {
     pub felt: [f64; 2],
     /// Whether the scene computes a life.
     pub has_life: bool,
-    /// Whether the smooth contact stays below the fatigue limit: it lives for ever, and nothing is relative to it.
-    pub no_reference: bool,
+    /// What lives are relative to.
+    pub reference: ReferenceLife,
     /// Whether cycles count by their damage.
     pub by_damage: bool,
     /// Hardness of the softer body at which it flows, Pa; `None`: both are elastic.

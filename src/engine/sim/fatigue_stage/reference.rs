@@ -12,6 +12,7 @@ use super::LifeStage;
 use crate::physics::cycles::BodyId;
 use crate::physics::hertz::Hertz;
 use crate::physics::life_models::calibrated_reference;
+use crate::sim::grounds::ReferenceLife;
 use crate::sim::smooth::LoadAndSpeed;
 use crate::sim::stress_stage::StressStage;
 use crate::sim::variant::{LifeIntegral, Variant};
@@ -149,15 +150,19 @@ impl LifeStage {
         life.is_finite().then_some(life)
     }
 
-    /// Whether no stress of the smooth contact is above the fatigue limit.
-    pub(in crate::sim) fn reference_lives_for_ever(&self) -> bool {
+    /// Whether any stress of the smooth contact is above the fatigue limit.
+    pub(in crate::sim) fn reference_ends(&self) -> ReferenceLife {
         let scene = &self.variants[0];
         let limit = scene
             .model
             .stress_law(self.law)
             .map_or(0.0, |(_, limit)| limit);
         let ln = scene.ln_reference(BodyId::One, LifeIntegral::Snapshot);
-        limit > 0.0 && ln == f64::NEG_INFINITY
+        if limit > 0.0 && ln == f64::NEG_INFINITY {
+            ReferenceLife::ForEver
+        } else {
+            ReferenceLife::Ends
+        }
     }
 
     pub(super) fn growth(&self, variant: &Variant, integral: LifeIntegral) -> f64 {

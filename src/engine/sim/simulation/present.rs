@@ -4,6 +4,7 @@
 use crate::plan::FilmPlan;
 use crate::sim::counting::felt_at_points;
 use crate::sim::fatigue_stage::LifeStage;
+use crate::sim::grounds::ReferenceLife;
 use crate::sim::measure::Measured;
 use crate::sim::sim_plan::SimPlan;
 use crate::sim::smooth::LoadAndSpeed;
@@ -89,7 +90,7 @@ pub(super) fn grounds(plan: &SimPlan, state: &State) -> Grounds {
         film_m: film.map(|film| film.central_m),
         flows,
         felt: felt_at_points(&plan.decided, size, &state.metrics),
-        no_reference: (state.life.as_ref()).is_some_and(LifeStage::reference_lives_for_ever),
+        reference: (state.life.as_ref()).map_or(ReferenceLife::Ends, LifeStage::reference_ends),
         mesh_film: mesh_film.filter(|_| flows),
         short_domain: film
             .filter(|_| flows)

@@ -107,13 +107,11 @@ pub(super) fn in_words(app: &App) -> Option<CaptionWords> {
     let tour = app.lesson.tour.as_ref();
     let asked = tour.filter(|tour| tour.phase == TourPhase::Asks);
     let asked = asked.and_then(|tour| tour.beat().question.as_ref());
-    let words = match asked {
-        Some(question) => question.ask.clone(),
-        None => {
-            let words = caption.words.iter().map(|(text, _)| text.as_str());
-            words.collect::<Vec<_>>().join(" ")
-        }
-    };
+    let all = caption.words.iter().map(|(text, _)| text.as_str());
+    let words = asked.map_or_else(
+        || all.collect::<Vec<_>>().join(" "),
+        |question| question.ask.clone(),
+    );
     Some(CaptionWords {
         is_lesson: tour.is_some(),
         title: caption.title,
