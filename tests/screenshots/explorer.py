@@ -165,8 +165,8 @@ def main():
     swept = [([], "sweeping S", patience), ([], "sweeping S 15/", patience)]
     shoot(program, arguments.folder, "explorer.png", (160, 48), swept, "demonstration_quick")
     # The second lesson at S = 0.5, its question answered: the comb.
-    comb = [(["t", "2"], "2/10", patience), (["n"], "(2/4)", patience), (["n", "3"], "(3/4)", patience), ([], "Right:", patience)]
-    shoot(program, arguments.folder, "explorer_lesson.png", (160, 48), comb)
+    comb = [(["t", "2"], "2/10", patience), (["n"], "(2/4)", patience), (["n"], "(3/4)", patience), (["1"], "Right:", patience)]
+    shoot(program, arguments.folder, "explorer_lesson.png", (160, 48), comb, "demonstration_quick")
     shoot(program, arguments.folder, "explorer_80x24.png", (80, 24), [([], "live", patience), (["e"], "change the scene", patience)])
 
 
