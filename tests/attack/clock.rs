@@ -147,7 +147,7 @@ impl Faults {
         let ended = place.run(&limit, &refs(&args("0.1", &more)));
         self.judge(
             "clock before 1970",
-            self.met(&ended, &[4]).or_else(|| lost(&place, false)),
+            self.met(&ended, &[4]).or_else(|| lost(&place)),
         );
     }
 

@@ -4,6 +4,7 @@ use std::cell::Cell;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use asperity_engine::observe::stopped_of;
 use asperity_recorder::Recorded;
 use asperity_session::run::Checkpoint;
 
@@ -73,11 +74,25 @@ fn is_whole(path: &Path) -> bool {
     }
 }
 
-/// What was lost of the outputs, if anything. `replaced`: all of them must be new ones.
-pub(super) fn lost(place: &Place, replaced: bool) -> Option<String> {
+/// What was lost of the outputs, if anything.
+pub(super) fn lost(place: &Place) -> Option<String> {
     OUTPUTS.iter().find_map(|(_, name)| {
         let path = place.folder().join(name);
-        let good = (is_mine(&path) && !replaced) || is_whole(&path);
+        let good = is_mine(&path) || is_whole(&path);
+        (!good).then(|| format!("{name} is lost"))
+    })
+}
+
+/// What was lost when a run was stopped: what it was to replace stays, and what there is of it lies beside; the state, from which
+/// it goes on, has its name.
+fn lost_by_a_stop(place: &Place) -> Option<String> {
+    OUTPUTS.iter().find_map(|(option, name)| {
+        let path = place.folder().join(name);
+        let good = if *option == "--save-state" {
+            is_whole(&path)
+        } else {
+            is_mine(&path) && is_whole(&stopped_of(&path))
+        };
         (!good).then(|| format!("{name} is lost"))
     })
 }
@@ -126,7 +141,7 @@ impl Faults {
                 },
             )
         };
-        self.judge(drill, fault.or_else(|| lost(&place, false)));
+        self.judge(drill, fault.or_else(|| lost(&place)));
     }
 
     /// One output in a place that does not take it.
@@ -189,7 +204,13 @@ impl Faults {
             (killed && !all_mine).then(|| "a killed run has touched what was there".to_owned());
         self.judge(
             &format!("signal {signal}"),
-            fault.or(touched).or_else(|| lost(&place, !killed)),
+            fault.or(touched).or_else(|| {
+                if killed {
+                    lost(&place)
+                } else {
+                    lost_by_a_stop(&place)
+                }
+            }),
         );
     }
 
@@ -217,7 +238,7 @@ impl Faults {
         let ended = child::end(first, &place.words());
         self.judge(
             "two writers",
-            self.met(&ended, &[5]).or_else(|| lost(&place, true)),
+            self.met(&ended, &[5]).or_else(|| lost_by_a_stop(&place)),
         );
     }
 

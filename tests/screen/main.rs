@@ -6,6 +6,7 @@ mod formula;
 mod lessons;
 mod memory;
 mod numbers;
+mod play;
 mod screens;
 mod session;
 mod state;
