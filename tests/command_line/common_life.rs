@@ -190,3 +190,37 @@ fn lives_beside_each_other_have_one_reference() {
     let told = run(&["--beside=life.survival=0.5,0.9"]);
     assert!(told.contains("not comparable"), "{told}");
 }
+
+/// At S = 0 the crests of both bodies meet as they happen to stand: where nobody has asked how, a case's band holds them all.
+#[test]
+fn a_case_that_rolls_has_a_band_over_phases() {
+    let text = |phase: &str| {
+        format!(
+            "scene = \"fzg_point_b\"\n[set]\ngrid.nodes = 257\n{phase}\n[vary]\nmotion.slide_roll = [0.0, 0.44]\n"
+        )
+    };
+    let lives = |phase: &str| {
+        let sweep = sweep(&text(phase));
+        let root = tempfile::tempdir().unwrap();
+        let (folder, _) = fill(&sweep, root.path(), None, 2);
+        let rows = Rows::gather(&sweep, &[folder]).unwrap();
+        [
+            "life_relative",
+            "life_relative_low",
+            "life_relative_high",
+            "life_phases_high",
+        ]
+        .map(|name| rows.column(&sweep, name).unwrap())
+    };
+    let [life, low, high, phases] = lives("");
+    let [other, _, _, none] = lives("body_1.surface.phase_deg = 180.0");
+    println!(
+        "S = 0: {} ({} to {}), half a wave on {}",
+        life[0], low[0], high[0], other[0]
+    );
+    assert!(other[0] / life[0] > 1.2, "{} {}", life[0], other[0]);
+    assert!(low[0] <= other[0] && other[0] <= high[0]);
+    assert!(phases[0] <= high[0] && phases[1].is_nan());
+    // Who asks for a phase gets it.
+    assert!(none[0].is_nan());
+}

@@ -74,10 +74,9 @@ const cell = (page, column, row) => page.evaluate(([column, row]) => {
 }, [column, row]);
 // The row of the screen that begins with a knob's name.
 async function knobRow(page, name) {
-  const rows = (await state(page)).text.split("\n");
-  const row = rows.findIndex((line) => new RegExp(`^[▸ ]*${name}`).test(line));
-  assert.ok(row >= 0, `${name}\n${rows.join("\n")}`);
-  return row;
+  const find = (now) => now.text.split("\n").findIndex((line) => new RegExp(`^[▸ ]*${name}`).test(line));
+  // A screen that has just changed its size is drawn a moment later.
+  return find(await until(page, name, (now) => find(now) >= 0));
 }
 
 let passed = 0;

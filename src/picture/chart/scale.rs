@@ -22,10 +22,17 @@ impl Scale {
 
     /// The number at a place.
     pub fn label(self, place: f64) -> String {
-        tick(match self {
+        /// Beside an axis there is no room for six digits.
+        const WIDE: f64 = 1e5;
+        let value = match self {
             Self::Linear => place,
             Self::Log => 10_f64.powf(place),
-        })
+        };
+        if value.abs() < WIDE || !value.is_finite() {
+            return tick(value);
+        }
+        let power = value.abs().log10().floor();
+        format!("{}e{power:.0}", tick(value / 10_f64.powf(power)))
     }
 
     /// Places of round numbers within `low` and `high` (places): of a logarithmic axis the decades, with 2 and 5
@@ -77,5 +84,9 @@ mod tests {
             ["1", "1.2", "1.4", "1.6", "1.8"]
         );
         assert_eq!(numbers(Scale::Linear, -0.1, 2.1).len(), 5);
+        assert_eq!(
+            numbers(Scale::Linear, 1e5, 9e5),
+            ["2e5", "4e5", "6e5", "8e5"]
+        );
     }
 }

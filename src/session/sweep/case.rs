@@ -3,12 +3,15 @@
 //! A case starts cold (Hertz, smooth reference, develop) or follows its neighbour ([`Simulation::follow`]),
 //! then runs its passages. A step that stalls ends it; what is known of it stays in the row, named.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use serde::{Deserialize, Serialize};
 
 use super::error::SweepError;
 use super::spec::{ChainKeys, Sweep};
 use super::window::window;
-use crate::run::Clock;
+use crate::run::{Clock, asks_for_no_phase, over_phases};
 use asperity_engine::plan::{OtherFilms, Plan, PlanError, TimeDependence};
 use asperity_engine::scene::{CycleBasis, Scene, Surface};
 use asperity_engine::sim::{SimError, Simulation, State, Summary};
@@ -116,6 +119,22 @@ impl Case {
             }
         }
         Some(running.end())
+    }
+
+    /// At S = 0 a life is that of one phase between both bodies' waves: where none is asked for, its band holds all of them, as
+    /// that of a run alone does.
+    pub(super) fn band_over_phases(
+        &self,
+        record: &mut CaseRecord,
+        threads: usize,
+        stop: &AtomicBool,
+    ) {
+        if record.end == CaseEnd::Converged && asks_for_no_phase(&self.scene) {
+            let began = Clock::start();
+            let scene = Arc::new(self.scene.clone());
+            over_phases(&scene, &self.plan, threads, &mut record.summary, stop);
+            record.seconds += began.elapsed_s();
+        }
     }
 
     /// Smooth films by regression: central and minimum, m; `None`: dry.

@@ -292,8 +292,10 @@ fn life_map(sweep: &Sweep, rows: &Rows) -> Option<HeatMap> {
     if !rising(&xs) || !rising(&ys) {
         return None;
     }
+    let what = if is_common { COMMON_LIFE } else { OWN_LIFE };
     Some(HeatMap {
-        title: title(sweep),
+        // Above the bar there is room for a word.
+        title: format!("{}: {what}", title(sweep)),
         rows: lives
             .chunks(xs.len())
             .take(ys.len())
@@ -301,9 +303,6 @@ fn life_map(sweep: &Sweep, rows: &Rows) -> Option<HeatMap> {
             .collect(),
         x: (x.label(), xs),
         y: (y.label(), ys),
-        value: (
-            if is_common { COMMON_LIFE } else { OWN_LIFE }.to_owned(),
-            Scale::Log,
-        ),
+        value: ("life".to_owned(), Scale::Log),
     })
 }

@@ -178,9 +178,14 @@ impl Crew<'_> {
                     .note((done.clamp(0.0, 1.0) * 1e3) as u64, &mut share)
             });
             self.progress.note(0, &mut share);
-            let Some((record, state)) = ran else {
+            let Some((mut record, state)) = ran else {
                 break;
             };
+            case.band_over_phases(&mut record, self.threads, &self.progress.stop);
+            // A band that was broken off is none.
+            if self.progress.stop.load(Ordering::Relaxed) {
+                break;
+            }
             self.folder.write_case(&record)?;
             computed += 1;
             self.progress

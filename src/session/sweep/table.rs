@@ -51,6 +51,7 @@ const COLUMNS: [&[(&str, InRecord)]; 7] = [
         i_ref i_mean cycle_factor stress_factor peak_factor traction_factor load_factor
         life_common life_relative life_relative_low life_relative_high life_body life_body_1 life_body_2
         life_system life_global life_damage life_models_low life_models_high
+        life_phases_low life_phases_high
         life_cycles survival_ratio
         sigma_eff_max_pa sigma_eff_max_depth_m sigma_eff_max_x_m
         cycles_end_depth_1_m cycles_end_depth_2_m
