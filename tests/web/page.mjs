@@ -105,6 +105,9 @@ await test("from the disk: a life within 3 s, knobs by key, mouse and wheel, no 
   await page.keyboard.press("Shift+ArrowRight");
   await until(page, "S by key", (now) => /S=/.test(now.hash));
   await until(page, "another life", (now) => Math.abs(Number(/life ([\d.e-]+)/.exec(now.spoken)?.[1]) / before - 1) > 0.01);
+  // The line that says how to begin has gone, and the screen has taken its room.
+  await page.waitForFunction(() => document.getElementById("lesson").hidden);
+  await page.waitForTimeout(500);
   const load = await knobRow(page, "load");
   const lifeOfS = await life(page);
   await page.mouse.click(...await cell(page, 5, load + 1));
