@@ -373,6 +373,13 @@ fn a_verdict_waits_for_the_knobs_and_refuses_foreign_ones() {
     assert!(!text(&app, 160, 48).contains("it is"), "on the way");
     app.apply(Action::NextBeat);
     assert!(text(&app, 160, 48).contains("still on their way"));
+    // There, but the average is that of the way.
+    let moving = State {
+        settled: false,
+        ..at(0.0, 0.0)
+    };
+    play(&mut app, 401..=450, &moving);
+    assert!(!text(&app, 160, 48).contains("it is"), "still moving");
     // Somebody turns S.
     app.apply(Action::Turn(1));
     play(&mut app, 401..=500, &at(0.05, 0.05));
@@ -385,7 +392,7 @@ fn a_verdict_waits_for_the_knobs_and_refuses_foreign_ones() {
     // The question comes again, and its answer puts the knob back.
     app.apply(Action::PreviousBeat);
     app.apply(Action::Typical(1));
-    play(&mut app, 501..=900, &at(0.0, 0.0));
+    play(&mut app, 551..=950, &at(0.0, 0.0));
     let told = text(&app, 160, 48);
     assert!(told.contains("You said"), "{told}");
 }

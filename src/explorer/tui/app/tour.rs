@@ -83,11 +83,13 @@ impl App {
         let tells = tour.beat().question.is_some() && tour.is_shown(passages);
         match tour.phase {
             TourPhase::Asks => self.answer(None),
-            TourPhase::Shows if tells && self.is_turning() => {
-                self.say("the knobs are still on their way");
-                Vec::new()
-            }
-            TourPhase::Shows if tells => self.tell(),
+            TourPhase::Shows if tells => match self.not_yet(tour) {
+                Some(why) => {
+                    self.say(why);
+                    Vec::new()
+                }
+                None => self.tell(),
+            },
             _ if tour.goes_on() => self.begin_beat(tour.place, tour.beat + 1),
             _ => self.begin_beat(tour.place + 1, 0),
         }
@@ -100,12 +102,16 @@ impl App {
             return Vec::new();
         };
         let answered = tour.beat().question.is_some() && tour.phase != TourPhase::Asks;
-        let beat = if answered {
-            tour.beat
-        } else {
-            tour.beat.saturating_sub(1)
-        };
-        self.begin_beat(tour.place, beat)
+        if !answered {
+            return self.begin_beat(tour.place, tour.beat.saturating_sub(1));
+        }
+        let (place, beat, before) = (tour.place, tour.beat, tour.before.clone());
+        let effects = self.begin_beat(place, beat);
+        // What it is compared with is the end of the beat before it, and not its own.
+        if let Some(tour) = &mut self.lesson.tour {
+            tour.before = before;
+        }
+        effects
     }
 
     /// Time and passages: what is due is told, what was read gives way to the next beat. The run's or the replay's pause
@@ -115,7 +121,7 @@ impl App {
         let Some(tour) = &self.lesson.tour else {
             return Vec::new();
         };
-        let shown = tour.is_shown(passages) && !self.is_turning();
+        let shown = tour.is_shown(passages) && self.not_yet(tour).is_none();
         match tour.phase {
             TourPhase::Asks => Vec::new(),
             TourPhase::Shows if shown && tour.beat().question.is_some() => self.tell(),
@@ -125,6 +131,15 @@ impl App {
             }
             _ => Vec::new(),
         }
+    }
+
+    /// Why what was found cannot be told yet: it would be of another state.
+    fn not_yet(&self, tour: &TourState) -> Option<&'static str> {
+        if self.is_turning() {
+            return Some("the knobs are still on their way");
+        }
+        let moves = self.life().is_some_and(|life| !life.settled);
+        (moves && !tour.is_overdue(self.passages())).then_some("the average still moves")
     }
 
     /// Whether a knob is under way to where it was set.

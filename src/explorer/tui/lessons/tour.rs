@@ -107,6 +107,13 @@ impl TourState {
         passages - self.since >= self.beat().passages
     }
 
+    /// Whether so many passages are far more than it takes.
+    pub fn is_overdue(&self, passages: f64) -> bool {
+        /// Times its own: averages that have not settled by then are not waited for.
+        const PATIENCE: f64 = 6.0;
+        passages - self.since >= PATIENCE * self.beat().passages
+    }
+
     /// Whether its words have been read.
     pub fn is_read(&self, now: Duration) -> bool {
         let beat = self.beat();
