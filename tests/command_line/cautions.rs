@@ -5,16 +5,13 @@
 
 use std::path::Path;
 use std::process::Command;
-use std::sync::Arc;
-use std::time::Duration;
 
-use crate::common::tui_fixture::{plain, setup_planned, text};
+use super::truth::explorer_after;
+use crate::common::tui_fixture::text;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
 use asperity_engine::sim::CautionCode;
 use asperity_explorer::tui::action::Action;
-use asperity_explorer::tui::app::App;
-use asperity_session::run::{Ending, Request, Session};
 use re_chunk::Chunk;
 use re_log_encoding::DecoderApp;
 use rerun::TextDocument;
@@ -161,21 +158,7 @@ fn screen(folder: &Path, scene: &str, sets: &[&str]) -> String {
         scene
     };
     let scene = Scene::load_with(name, &sets).unwrap();
-    let plan = Plan::new(&scene).unwrap();
-    let mut app = App::new(setup_planned(&scene, name, &plan), Vec::new(), plain());
-    let request = Request {
-        name: String::new(),
-        scene: Arc::new(scene),
-        plan,
-        threads: 1,
-        watchers: Vec::new(),
-        ending: Ending::Passages,
-    };
-    let session = Session::start(request).unwrap();
-    let handle = session.handle.clone();
-    session.join().unwrap();
-    app.tick(Duration::from_millis(25));
-    app.take_frame(handle.latest().take().unwrap());
+    let mut app = explorer_after(scene, name);
     app.apply(Action::Plan);
     // As wide as the list, which then has nothing beside it.
     words(&text(&app, 100, 100))

@@ -305,6 +305,26 @@ fn last_scalars(path: &Path) -> BTreeMap<String, Vec<f64>> {
     found.into_iter().map(strip).collect()
 }
 
+/// The explorer with the last frame of a run, made in this process.
+pub(crate) fn explorer_after(scene: Scene, name: &str) -> App {
+    let plan = Plan::new(&scene).unwrap();
+    let mut app = App::new(setup_planned(&scene, name, &plan), Vec::new(), plain());
+    let session = Session::start(Request {
+        name: String::new(),
+        scene: Arc::new(scene),
+        plan,
+        threads: 1,
+        watchers: Vec::new(),
+        ending: Ending::Passages,
+    });
+    let session = session.unwrap();
+    let handle = session.handle.clone();
+    session.join().unwrap();
+    app.tick(Duration::from_millis(25));
+    app.take_frame(handle.latest().take().unwrap());
+    app
+}
+
 /// The explorer's screen with the last frame of the same run, made in this process.
 struct Screen {
     kind: ContactKind,
@@ -317,25 +337,7 @@ impl Screen {
     fn of(case: &Case) -> Self {
         let sets: Vec<Override> = case.sets.iter().map(|text| text.parse().unwrap()).collect();
         let scene = Scene::load_with(&case.scene, &sets).unwrap();
-        let (kind, plan) = (scene.kind(), Plan::new(&scene).unwrap());
-        let mut app = App::new(
-            setup_planned(&scene, &case.scene, &plan),
-            Vec::new(),
-            plain(),
-        );
-        let session = Session::start(Request {
-            name: String::new(),
-            scene: Arc::new(scene),
-            plan,
-            threads: 1,
-            watchers: Vec::new(),
-            ending: Ending::Passages,
-        });
-        let session = session.unwrap();
-        let handle = session.handle.clone();
-        session.join().unwrap();
-        app.tick(Duration::from_millis(25));
-        app.take_frame(handle.latest().take().unwrap());
+        let (kind, app) = (scene.kind(), explorer_after(scene, &case.scene));
         let mut terminal = Terminal::new(TestBackend::new(SIZE.0, SIZE.1)).unwrap();
         terminal.draw(|frame| view::draw(&app, frame)).unwrap();
         let buffer = terminal.backend().buffer();

@@ -3,24 +3,13 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::phases::{run, scene};
+use super::phases::{cold, run, scene};
 use asperity_engine::plan::Plan;
-use asperity_engine::sim::Simulation;
 use asperity_session::run::{hangs_on_oil_law, over_oil_laws};
 
 /// What the ends may be off, as a factor: the first mesh has seven nodes a wave, and is off by 1.2 in the life itself, its band
 /// being 1.7 either way.
 const OFF: f64 = 1.5;
-
-/// The life on that mesh alone.
-fn cold(preset: &str, sets: &[&str], law: &str) -> f64 {
-    let own = scene(preset, &[sets, &["numerics.ladder=false", law]].concat());
-    let mut sim = Simulation::new(&own, Plan::new(&own).unwrap(), 2).unwrap();
-    while !sim.is_done() {
-        sim.step().unwrap();
-    }
-    sim.summary().life_relative.unwrap()
-}
 
 #[test]
 fn the_first_mesh_knows_what_the_oil_does_to_the_life() {

@@ -28,10 +28,9 @@ pub(crate) fn run(scene: &Arc<Scene>, plan: &Plan) -> Summary {
     outcome.summary.unwrap()
 }
 
-/// Its life on its own mesh alone, at another phase of body 1.
-fn cold(preset: &str, sets: &[&str], phase_deg: f64) -> f64 {
-    let phase = format!("body_1.surface.phase_deg={phase_deg}");
-    let own = scene(preset, &[sets, &["numerics.ladder=false", &phase]].concat());
+/// Its life on its own mesh alone, with one key more.
+pub(crate) fn cold(preset: &str, sets: &[&str], key: &str) -> f64 {
+    let own = scene(preset, &[sets, &["numerics.ladder=false", key]].concat());
     let mut sim = Simulation::new(&own, Plan::new(&own).unwrap(), 2).unwrap();
     while !sim.is_done() {
         sim.step().unwrap();
@@ -67,7 +66,10 @@ fn the_band_of_rolling_holds_every_phase() {
         let [low, high] = band;
         // Between those that the band was made of, and on another mesh.
         let between = [22.5, 112.5, 202.5, 292.5].into_iter();
-        let lives: Vec<f64> = between.map(|phase| cold(preset, &sets, phase)).collect();
+        let key = |phase: f64| format!("body_1.surface.phase_deg={phase}");
+        let lives: Vec<f64> = between
+            .map(|phase| cold(preset, &sets, &key(phase)))
+            .collect();
         println!(
             "{preset}: band {low:.3} to {high:.3}, without phases {before:.3?}; lives {lives:.3?}"
         );

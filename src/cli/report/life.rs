@@ -80,21 +80,23 @@ fn add_models(lines: &mut Lines, s: &Summary) {
             format!("body 1 {}, body 2 {}{system}", four(one), four(two)),
         );
     }
-    if let Some((low, high)) = s.life_phases_low.zip(s.life_phases_high) {
-        let what = format!(
-            "{} to {} as the crests of both bodies happen to meet, of which nothing is asked (phase_deg); the band holds it",
-            four(low),
-            four(high)
-        );
-        lines.add("phases", what);
-    }
-    if let Some((low, high)) = s.life_oil_low.zip(s.life_oil_high) {
-        let what = format!(
-            "{} to {} with the other law of flow of sheared oil (lubricant.eyring_flow), half and twice its Eyring stress",
-            four(low),
-            four(high)
-        );
-        lines.add("oil law", what);
+    for (label, low, high, over) in [
+        (
+            "phases",
+            s.life_phases_low,
+            s.life_phases_high,
+            "as the crests of both bodies happen to meet, of which nothing is asked (phase_deg); the band holds it",
+        ),
+        (
+            "oil law",
+            s.life_oil_low,
+            s.life_oil_high,
+            "with the other law of flow of sheared oil (lubricant.eyring_flow), half and twice its Eyring stress",
+        ),
+    ] {
+        if let Some((low, high)) = low.zip(high) {
+            lines.add(label, format!("{} to {} {over}", four(low), four(high)));
+        }
     }
     let spread = s.life_models_low.zip(s.life_models_high);
     if let (Some((low, high)), Some(count @ 2..)) = (spread, s.life_models) {
