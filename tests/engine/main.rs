@@ -22,6 +22,7 @@ mod motions;
 mod order;
 mod plan;
 mod random_scenes;
+mod random_surface;
 mod refusals;
 mod regime;
 mod ripple;

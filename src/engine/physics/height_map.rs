@@ -150,6 +150,12 @@ impl HeightMap {
         Self::treated(nx, heights_m, beyond, (MapLevel::Mean, MapOutliers::Keep))
     }
 
+    /// A map that was made and not measured: periodic, less its mean, without outliers.
+    pub(crate) fn made(nx: usize, heights_m: &[f64]) -> Option<Self> {
+        let form = Pixels::new(nx, heights_m).form();
+        Self::levelled(nx, heights_m, MapEdge::Periodic, (MapLevel::Mean, form))
+    }
+
     /// Same, less what `level` says of the best polynomial.
     fn levelled(
         nx: usize,
@@ -289,6 +295,16 @@ impl HeightMap {
             MapEdge::Periodic => Some(k.rem_euclid(n as i64) as usize),
             MapEdge::Windowed => (0..n as i64).contains(&k).then_some(k as usize),
         }
+    }
+
+    /// Skewness and kurtosis of the heights, ⟨z³⟩/Sq³ and ⟨z⁴⟩/Sq⁴ (ISO 25178-2: Ssk, Sku).
+    pub fn moments(&self) -> [f64; 2] {
+        [3, 4].map(|power| {
+            let sum: f64 = (self.shape.iter())
+                .map(|&s| (f64::from(s) / self.rms).powi(power))
+                .sum();
+            sum / self.shape.len() as f64
+        })
     }
 
     /// Upcrossings of the level per pixel along x. A crossing counts when the height leaves a band of

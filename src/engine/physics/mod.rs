@@ -21,6 +21,7 @@ pub mod line;
 pub mod multiaxial;
 pub mod race_and_cam;
 pub mod rainflow;
+pub mod random_surface;
 pub mod ripple;
 pub mod strength;
 pub mod stress_exact;

@@ -91,12 +91,12 @@ fn valleys(scene: &Scene) -> Valleys {
             kind == ContactKind::Point
                 && (wavelength_x_m.is_infinite() || wavelength_y_m.is_infinite())
         }
-        Surface::HeightMap { .. } => false,
+        Surface::Random(_) | Surface::HeightMap { .. } => false,
     };
     let surfaces = scene.surfaces();
     let is_map = |surface: &Surface| match surface.kind() {
         SurfaceKind::Smooth | SurfaceKind::Sinusoid => false,
-        SurfaceKind::HeightMap => true,
+        SurfaceKind::Random | SurfaceKind::HeightMap => true,
     };
     if surfaces.iter().any(|surface| leads_out(surface))
         && !surfaces.iter().any(|surface| is_map(surface))

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::{LINE_ROWS, LifePlan, OtherFilms, Plan, Symmetry, TimeDependence, WavePlan};
 use crate::math::number::{fixed, length};
-use crate::scene::{ContactKind, CycleBasis, EyringFlow, MapReport, Spread};
+use crate::scene::{ContactKind, CycleBasis, EyringFlow, Spread};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -83,8 +83,7 @@ impl Plan {
             if let Some(wave) = wave {
                 writeln!(f, "Body {}      {}", index + 1, wave_text(wave))?;
             }
-            let lines = self.maps[index].iter().flat_map(MapReport::lines);
-            for (n, line) in lines.enumerate() {
+            for (n, line) in self.relief_lines[index].iter().enumerate() {
                 let name = if n == 0 { "Its map" } else { "" };
                 writeln!(f, "{name:<12}{line}")?;
             }

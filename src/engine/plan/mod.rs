@@ -30,7 +30,7 @@ use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
 use crate::scene::{
     ContactKind, EyringFlow, MINIMUM_HARDNESS, MapReport, Order, OrderAsked, Record, Scene,
-    StressMeasure,
+    StressMeasure, Surface,
 };
 
 /// Everything that is decided before the first step.
@@ -80,6 +80,8 @@ pub struct Plan {
     pub resolution: Resolution,
     /// The height maps of body 1 and 2; `None`: it has none.
     pub maps: [Option<MapReport>; 2],
+    /// What their heights are, made or read, in words.
+    pub relief_lines: [Vec<String>; 2],
     /// Normal deflection by tangential traction, u^s; `None`: the bodies are alike.
     pub traction_deflection: Option<TractionDeflection>,
     /// Pressure at which the softer body flows, Pa, and which bodies do; `None`: both stay elastic.
@@ -303,6 +305,7 @@ impl Plan {
             waves,
             resolution,
             maps: scene.map_reports(),
+            relief_lines: scene.surfaces().map(Surface::relief_lines),
             traction_deflection: decide::traction_deflection(scene),
             yielding: scene.hardness_pa().map(|pa| (pa, scene.softer())),
             stress: decide::stress_plan(scene, &hertz, &mut warnings),

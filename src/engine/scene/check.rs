@@ -7,7 +7,7 @@ use super::Knob;
 use super::error::drives_a_terminal;
 use super::error::{SceneError, nearest};
 use super::keys::{self, EVENT_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
-use super::model::{Event, Scene, Surface};
+use super::model::{Event, Scene, Surface, SurfaceKind};
 use super::shape::{check_carried, check_force, check_hardness, check_load, check_shape};
 use super::wrong::refusal;
 use crate::math::number::{apart, trimmed};
@@ -274,33 +274,7 @@ fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
             wavelength_y_m,
             ..
         } => wavelength_x_m.min(wavelength_y_m),
-        Surface::HeightMap { ref map, .. } => {
-            // Its steepest significant wave is lower than its largest height: the bound is generous.
-            let [k_x, k_y] = surface.wavenumbers_per_m();
-            if map.is_none() {
-                return Err(SceneError::Missing {
-                    key: joined(path, "file"),
-                    allowed: "a height map that has been read (Scene::read_maps)".to_owned(),
-                });
-            }
-            let steepness =
-                |[k_x, k_y]: [f64; 2]| surface.rq_m() * std::f64::consts::TAU * k_x.max(k_y);
-            let slope = steepness([k_x, k_y]);
-            let blame = surface.blame(|waves| steepness(waves) <= SLOPE_MAX);
-            return if slope > SLOPE_MAX {
-                Err(SceneError::value(
-                    joined(path, "amplitude_m"),
-                    format!("{} m", trimmed(amplitude_m, 4)),
-                    format!(
-                        "a slope 2 pi Rq/W of at most {SLOPE_MAX}; this one is {}, W the shortest significant wave{}",
-                        beyond(slope),
-                        blame.map_or_else(String::new, |cause| format!("; {cause}"))
-                    ),
-                ))
-            } else {
-                Ok(())
-            };
-        }
+        Surface::Random(_) | Surface::HeightMap { .. } => return check_relief(path, surface),
     };
     if shortest == f64::INFINITY {
         return Err(SceneError::value(
@@ -322,6 +296,37 @@ fn check_surface(path: &str, surface: &Surface) -> Result<(), SceneError> {
         ));
     }
     Ok(())
+}
+
+/// Heights made or read: the steepest significant wave of a map is lower than its largest height, so the bound is generous.
+fn check_relief(path: &str, surface: &Surface) -> Result<(), SceneError> {
+    if surface.relief().is_none() {
+        return Err(SceneError::Missing {
+            key: joined(path, "kind"),
+            allowed: "heights that have been made or read (Scene::read_maps)".to_owned(),
+        });
+    }
+    let steepness = |[k_x, k_y]: [f64; 2]| surface.rq_m() * std::f64::consts::TAU * k_x.max(k_y);
+    let slope = steepness(surface.wavenumbers_per_m());
+    if slope <= SLOPE_MAX {
+        return Ok(());
+    }
+    let blame = surface.blame(|waves| steepness(waves) <= SLOPE_MAX);
+    let (key, value_m) = match surface.kind() {
+        SurfaceKind::Random => ("rq_m", surface.rq_m()),
+        SurfaceKind::Smooth | SurfaceKind::Sinusoid | SurfaceKind::HeightMap => {
+            ("amplitude_m", surface.amplitude_m())
+        }
+    };
+    Err(SceneError::value(
+        joined(path, key),
+        format!("{} m", trimmed(value_m, 4)),
+        format!(
+            "a slope 2 pi Rq/W of at most {SLOPE_MAX}; this one is {}, W the shortest significant wave{}",
+            beyond(slope),
+            blame.map_or_else(String::new, |cause| format!("; {cause}"))
+        ),
+    ))
 }
 
 /// An event's load must be the one that the kind of contact takes.

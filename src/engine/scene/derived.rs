@@ -1,9 +1,11 @@
 //! What follows from a scene by closed forms: moduli, Hertz contact, speeds, roughness.
 
 use std::f64::consts::SQRT_2;
+use std::sync::Arc;
 
 use super::model::{ContactKind, MapEdge, Scene, Surface, SurfaceKind};
 use crate::physics::groups::PointContact;
+use crate::physics::height_map::HeightMap;
 use crate::physics::hertz::{self, Hertz};
 use crate::physics::line::{self, LinePoint};
 
@@ -121,6 +123,18 @@ impl Scene {
         [&self.body_1.surface, &self.body_2.surface]
     }
 
+    /// Shortest wave of the made surfaces, m; `None`: there are none.
+    pub fn cutoff_short_m(&self) -> Option<f64> {
+        let made = self
+            .surfaces()
+            .into_iter()
+            .filter_map(|surface| match surface {
+                Surface::Random(random) => Some(random.cutoff_short_m()),
+                Surface::Smooth {} | Surface::Sinusoid { .. } | Surface::HeightMap { .. } => None,
+            });
+        made.reduce(f64::min)
+    }
+
     /// Composite root-mean-square roughness √(Rq₁² + Rq₂²), m.
     pub fn composite_rq_m(&self) -> f64 {
         let [one, two] = self.surfaces();
@@ -138,22 +152,37 @@ impl Surface {
                 let k = self.wavenumbers_per_m()[0];
                 (k > 0.0).then(|| (1.0 / k, phase_deg / 360.0 / k))
             }
-            Self::HeightMap {
-                pixel_m, edge, map, ..
-            } => {
-                let nx = map.as_ref()?.nx();
-                match edge {
-                    MapEdge::Periodic => Some((nx as f64 * side_m(*pixel_m), 0.0)),
+            Self::Random(_) | Self::HeightMap { .. } => {
+                let (map, [side_m, _]) = self.relief()?;
+                let length_m = map.nx() as f64 * side_m;
+                match map.beyond() {
+                    MapEdge::Periodic => length_m.is_finite().then_some((length_m, 0.0)),
                     MapEdge::Windowed => None,
                 }
             }
         }
     }
 
+    /// Its heights over their maximum, made or read, and the sides of their pixels along x and y, m (∞: it does not vary that
+    /// way); `None`: it has no such heights.
+    pub(crate) fn relief(&self) -> Option<(&Arc<HeightMap>, [f64; 2])> {
+        match self {
+            Self::Smooth {} | Self::Sinusoid { .. } => None,
+            Self::Random(random) => random.relief(),
+            Self::HeightMap { pixel_m, map, .. } => Some((map.as_ref()?, [side_m(*pixel_m); 2])),
+        }
+    }
+
+    /// Length along x of heights made or read, m; `None`: there are none, or they do not vary along x.
+    pub fn relief_length_m(&self) -> Option<f64> {
+        let (map, [side_m, _]) = self.relief()?;
+        Some(map.nx() as f64 * side_m).filter(|length_m| length_m.is_finite())
+    }
+
     /// Whether damage can be gathered in a block: a map that stands once never comes back.
     pub fn has_block(&self) -> bool {
         match self {
-            Self::Smooth {} | Self::Sinusoid { .. } => true,
+            Self::Smooth {} | Self::Sinusoid { .. } | Self::Random(_) => true,
             Self::HeightMap { edge, .. } => match edge {
                 MapEdge::Periodic => true,
                 MapEdge::Windowed => false,
@@ -166,6 +195,7 @@ impl Surface {
         match *self {
             Self::Smooth {} => 0.0,
             Self::Sinusoid { amplitude_m, .. } => amplitude_m,
+            Self::Random(ref random) => random.amplitude_m(),
             Self::HeightMap {
                 amplitude_m,
                 ref map,
@@ -179,6 +209,7 @@ impl Surface {
         match self {
             Self::Smooth {} => {}
             Self::Sinusoid { amplitude_m, .. } => *amplitude_m = value_m,
+            Self::Random(random) => random.set_amplitude_m(value_m),
             Self::HeightMap { amplitude_m, .. } => *amplitude_m = Some(value_m),
         }
     }
@@ -195,6 +226,7 @@ impl Surface {
                 ..
             } if wavelength_x_m.is_finite() && wavelength_y_m.is_finite() => 0.5 * amplitude_m,
             Self::Sinusoid { amplitude_m, .. } => amplitude_m / SQRT_2,
+            Self::Random(ref random) => random.rq_m,
             Self::HeightMap { ref map, .. } => {
                 self.amplitude_m() * map.as_ref().map_or(0.0, |map| map.rms)
             }
@@ -211,31 +243,24 @@ impl Surface {
         match self {
             Self::Smooth {} => SurfaceKind::Smooth,
             Self::Sinusoid { .. } => SurfaceKind::Sinusoid,
+            Self::Random(_) => SurfaceKind::Random,
             Self::HeightMap { .. } => SurfaceKind::HeightMap,
         }
     }
 
     /// Crests per metre along x, f: one a wave; of a height map the upcrossings of its level.
     pub fn crests_per_m(&self) -> f64 {
-        match *self {
-            Self::HeightMap {
-                pixel_m, ref map, ..
-            } => map.as_ref().map_or(0.0, |map| map.crests / side_m(pixel_m)),
-            Self::Smooth {} | Self::Sinusoid { .. } => self.wavenumbers_per_m()[0],
+        match self.relief() {
+            Some((map, [side_m, _])) => map.crests / side_m,
+            None => self.wavenumbers_per_m()[0],
         }
     }
 
     /// Wavenumbers of the surface along x and y, 1/m: the largest that the turned product holds; of a
     /// height map that of its shortest significant waves.
     pub fn wavenumbers_per_m(&self) -> [f64; 2] {
-        if let Self::HeightMap {
-            pixel_m,
-            map: Some(map),
-            ..
-        } = self
-        {
-            let side_m = side_m(*pixel_m);
-            return map.shortest.map(|pixels| 1.0 / (pixels * side_m));
+        if let Some((map, sides_m)) = self.relief() {
+            return [0, 1].map(|k| 1.0 / (map.shortest[k] * sides_m[k]));
         }
         let Self::Sinusoid {
             wavelength_x_m,
@@ -261,7 +286,7 @@ impl Surface {
 
     /// Whether the surface is its own mirror image in y = 0, wherever it has moved along x.
     pub fn is_even_in_y(&self) -> bool {
-        if let Self::HeightMap { map: Some(map), .. } = self {
+        if let Some((map, _)) = self.relief() {
             return map.is_even_in_y;
         }
         let Self::Sinusoid {
@@ -286,7 +311,7 @@ impl Surface {
 }
 
 /// Side of a pixel. NaN would show a map that has not been read, which does not validate.
-pub(crate) fn side_m(pixel_m: Option<f64>) -> f64 {
+pub(super) fn side_m(pixel_m: Option<f64>) -> f64 {
     pixel_m.unwrap_or(f64::NAN)
 }
 

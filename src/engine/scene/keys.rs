@@ -22,6 +22,7 @@ use Need::{Defaulted, Optional, Required};
 use super::lubricant::{Cavitation, DensityLaw, EyringFlow, Rheology, ViscosityLaw};
 use super::model::{ContactKind, MapEdge, MapLevel, MapOutliers, StressMeasure, SurfaceKind};
 use super::numerics::{ErrorSource, OrderAsked};
+use crate::physics::random_surface::Autocorrelation;
 
 #[rustfmt::skip]
 const BODY: &[Key] = &[
@@ -40,12 +41,38 @@ const SURFACE: &[Key] = &[
     key("outliers", "", Choice(MapOutliers::KEYS), Defaulted, "pixels that stand out of the 5 by 5 about them by six times the usual are kept, or become the median of those"),
     key("unit_m", "m", Number(1e-12, 1e3), Optional("as the header of the file says, else 1"), "height that a value of 1 stands for; a header that says otherwise is refused"),
     key("start_x_m", "m", Number(-1e3, 1e3), Optional("just upstream of the domain"), "where the middle of a windowed map is at t = 0"),
+    key("seed", "", Integer(0, 1_000_000_000), Optional("1 on body 1, 2 on body 2"), "which surface of that kind: equal seeds and keys make equal surfaces"),
+    key("rq_m", "m", Number(0.0, 1e-4), Required, "root-mean-square height of the made surface, all its waves together"),
+    key("autocorrelation", "", Choice(Autocorrelation::KEYS), Defaulted, "how heights a way r apart are related, r in correlation lengths: e^-r, e^-r^2, or by a power law of the spectrum between the cut-offs"),
+    key("correlation_x_m", "m", NumberOrInf(1e-7, 1.0), Optional("self_affine alone, which has none"), "way along x over which the correlation falls to 1/e; inf: longitudinal ridges"),
+    key("correlation_y_m", "m", NumberOrInf(1e-7, 1.0), Optional("as along x"), "the same along y, longer than along x: a transverse lay; inf: transverse ridges"),
+    key("hurst", "", Number(0.0, 1.0), Optional("0.8"), "Hurst exponent H of self_affine: power by wavenumber q^-2(1+H), of ridges q^-(1+2H)"),
+    key("cutoff_short_m", "m", Number(1e-7, 1.0), Optional("the shorter correlation length"), "shortest wave of the surface, at least 4 nodes; lives hang on it"),
+    key("cutoff_long_m", "m", Number(1e-7, 1.0), Optional("the period"), "longest wave of the surface"),
+    key("period_x_m", "m", Number(1e-6, 10.0), Optional("64 correlation lengths, at least 8 of cutoff_long_m"), "way along x after which the surface comes again"),
+    key("period_y_m", "m", Number(1e-6, 10.0), Optional("likewise"), "the same along y"),
     key("amplitude_m", "m", Number(0.0, 1e-4), Required, "sinusoid: A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy), peak to valley is 2 A; height map: greatest departure from its level; omitted: as in the file"),
     key("wavelength_x_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wx, at least 4 nodes; inf: longitudinal ridges"),
     key("wavelength_y_m", "m", NumberOrInf(1e-7, 1.0), Defaulted, "Wy, at least 4 nodes; inf: transverse ridges"),
     key("angle_deg", "degrees", Number(-360.0, 360.0), Defaulted, "angle of x' from the rolling direction x"),
     key("phase_deg", "degrees", Number(-360.0, 360.0), Defaulted, "phase of the wave along x' at t = 0, x = 0; where both bodies have 0 none is asked for, and a run at S = 0 bands its life over eight"),
 ];
+
+/// The keys that each kind of surface has.
+const OF_SINUSOID: [&str; 5] = [
+    "amplitude_m",
+    "wavelength_x_m",
+    "wavelength_y_m",
+    "angle_deg",
+    "phase_deg",
+];
+#[rustfmt::skip]
+const OF_RANDOM: [&str; 10] = [
+    "seed", "rq_m", "autocorrelation", "correlation_x_m", "correlation_y_m", "hurst", "cutoff_short_m", "cutoff_long_m",
+    "period_x_m", "period_y_m",
+];
+#[rustfmt::skip]
+const OF_MAP: [&str; 8] = ["file", "digest", "pixel_m", "edge", "level", "outliers", "unit_m", "start_x_m"];
 
 /// Every table of a scene in the order in which it is printed.
 #[rustfmt::skip] // one line a key
@@ -295,18 +322,16 @@ impl Key {
         if !table.ends_with(".surface") || self.name == "kind" {
             return Some(self.need);
         }
-        let of_map = matches!(
-            self.name,
-            "file" | "digest" | "pixel_m" | "edge" | "level" | "outliers" | "unit_m" | "start_x_m"
-        );
-        match kind.and_then(SurfaceKind::from_key) {
-            Some(SurfaceKind::Smooth) => None,
+        let own: &[&str] = match kind.and_then(SurfaceKind::from_key) {
+            Some(SurfaceKind::Smooth) => &[],
             Some(SurfaceKind::HeightMap) if self.name == "amplitude_m" => {
-                Some(Optional("as in the file"))
+                return Some(Optional("as in the file"));
             }
-            Some(SurfaceKind::HeightMap) => of_map.then_some(self.need),
-            Some(SurfaceKind::Sinusoid) | None => (!of_map).then_some(self.need),
-        }
+            Some(SurfaceKind::HeightMap) => &OF_MAP,
+            Some(SurfaceKind::Random) => &OF_RANDOM,
+            Some(SurfaceKind::Sinusoid) | None => &OF_SINUSOID,
+        };
+        own.contains(&self.name).then_some(self.need)
     }
 
     /// The kinds of surface that take the key, for messages.

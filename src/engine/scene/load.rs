@@ -206,7 +206,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Reads the height maps that have not been read yet, relative paths from `folder`; the paths become
+    /// Reads the height maps that have not been read yet and makes the surfaces that have not been made, relative paths from `folder`; the paths become
     /// absolute, so that a copy of the scene finds them from anywhere.
     ///
     /// # Errors
@@ -216,7 +216,10 @@ impl Scene {
             ("body_1.surface", &mut self.body_1),
             ("body_2.surface", &mut self.body_2),
         ];
-        for (table, body) in bodies {
+        for (number, (table, body)) in (1..).zip(bodies) {
+            if let Surface::Random(random) = &mut body.surface {
+                random.make(table, number)?;
+            }
             if let Surface::HeightMap {
                 file,
                 pixel_m,

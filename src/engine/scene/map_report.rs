@@ -99,6 +99,15 @@ impl Surface {
         })
     }
 
+    /// What a surface made or read is, in words, some lines; none of others.
+    pub fn relief_lines(&self) -> Vec<String> {
+        match self {
+            Self::Smooth {} | Self::Sinusoid { .. } => Vec::new(),
+            Self::Random(random) => random.lines(),
+            Self::HeightMap { .. } => self.map_report().map_or_else(Vec::new, |map| map.lines()),
+        }
+    }
+
     /// What is doubtful of a map.
     pub fn map_doubts(&self) -> [Option<Doubt>; 2] {
         let Self::HeightMap { map: Some(map), .. } = self else {

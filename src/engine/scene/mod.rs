@@ -20,11 +20,11 @@ mod map_report;
 mod model;
 mod numerics;
 pub mod presets;
+mod random;
 mod shape;
 mod tooth;
 mod wrong;
 
-pub(crate) use derived::side_m;
 pub use error::{SceneError, drives_a_terminal};
 pub use knob::{Knob, KnobLine, RampRate, Reach, Steps};
 pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread};
@@ -38,6 +38,7 @@ pub use model::{
     Record, Scene, Stress, StressMeasure, Surface, SurfaceKind,
 };
 pub use numerics::{ErrorSource, Numerics, Order, OrderAsked, Time};
+pub use random::RandomSurface;
 pub use shape::MINIMUM_HARDNESS;
 pub use tooth::Tooth;
 pub(crate) use wrong::unusual;

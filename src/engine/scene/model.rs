@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::life::Life;
 use super::lubricant::{Friction, Lubricant};
 use super::numerics::{Numerics, Time};
+use super::random::RandomSurface;
 use super::tooth::Tooth;
 use crate::closed_set;
 use crate::physics::height_map::HeightMap;
@@ -110,6 +111,8 @@ closed_set! {
         Smooth = "smooth",
         /// One wave, or the product of two.
         Sinusoid = "sinusoid",
+        /// Made by its statistics.
+        Random = "random",
         /// Heights from a file.
         HeightMap = "height_map",
     }
@@ -138,6 +141,8 @@ pub enum Surface {
         #[serde(default)]
         phase_deg: f64,
     },
+    /// Made by its statistics.
+    Random(RandomSurface),
     /// Heights from a file, by cubic interpolation.
     HeightMap {
         /// `.npy` or `.csv`; relative paths are relative to the scene file, and become absolute when the

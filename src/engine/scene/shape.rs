@@ -34,21 +34,29 @@ fn check_transverse(path: &str, surface: &Surface) -> Result<(), SceneError> {
         return Ok(());
     }
     let uniform = "a line contact is the same at every y, so its ridges must lie across";
-    if let Surface::HeightMap { .. } = surface {
-        return Err(SceneError::value(
-            joined(path, "kind"),
-            "\"height_map\"",
-            format!("a map whose rows are all alike, \"sinusoid\" or \"smooth\": {uniform}"),
-        ));
-    }
-    let Surface::Sinusoid {
-        wavelength_x_m,
-        wavelength_y_m,
-        angle_deg,
-        ..
-    } = *surface
-    else {
-        return Ok(());
+    let refused = |key: &str, value: &str, allowed: &str| {
+        SceneError::value(joined(path, key), value, format!("{allowed}: {uniform}"))
+    };
+    let (wavelength_x_m, wavelength_y_m, angle_deg) = match *surface {
+        Surface::Smooth {} => return Ok(()),
+        Surface::HeightMap { .. } => {
+            let allowed = "a map whose rows are all alike, \"random\", \"sinusoid\" or \"smooth\"";
+            return Err(refused("kind", "\"height_map\"", allowed));
+        }
+        Surface::Random(ref random) => {
+            let y_m = random.correlation_m()[1];
+            return Err(refused(
+                "correlation_y_m",
+                &format!("{} m", short(y_m)),
+                "inf",
+            ));
+        }
+        Surface::Sinusoid {
+            wavelength_x_m,
+            wavelength_y_m,
+            angle_deg,
+            ..
+        } => (wavelength_x_m, wavelength_y_m, angle_deg),
     };
     Err(
         if wavelength_y_m.is_finite() && wavelength_x_m.is_finite() {

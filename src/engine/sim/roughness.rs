@@ -14,7 +14,7 @@ use super::motion::BodyTravel;
 use super::scaling::Heading;
 use crate::math::grid::Grid;
 use crate::physics::height_map::{HeightMap, MapEdge};
-use crate::scene::{Surface, side_m};
+use crate::scene::Surface;
 
 /// One plane wave of a surface.
 #[derive(Debug, Clone, Copy)]
@@ -137,18 +137,17 @@ impl Relief {
             Surface::Sinusoid { .. } => {
                 GriddedWaves::new(grid, surface, a_m, heading).map(Self::Waves)
             }
-            Surface::HeightMap {
-                pixel_m,
-                start_x_m,
-                map,
-                ..
-            } => map.as_ref().map(|map| {
-                let start = start_x_m.map(|x_m| heading.sign() * x_m / a_m);
+            Surface::Random(_) | Surface::HeightMap { .. } => {
+                let (map, [side_x_m, side_y_m]) = surface.relief()?;
+                let start = match surface {
+                    Surface::HeightMap { start_x_m, .. } => *start_x_m,
+                    Surface::Smooth {} | Surface::Sinusoid { .. } | Surface::Random(_) => None,
+                };
+                let start = start.map(|x_m| heading.sign() * x_m / a_m);
                 // Columns that run the other way are a pixel of the opposite sign.
-                let side_m = side_m(*pixel_m);
-                let pixels = [heading.sign() * side_m / a_m, side_m / a_m];
-                Self::Map(GriddedMap::new(grid, map, pixels, start))
-            }),
+                let pixels = [heading.sign() * side_x_m / a_m, side_y_m / a_m];
+                Some(Self::Map(GriddedMap::new(grid, map, pixels, start)))
+            }
         }
     }
 }
@@ -311,6 +310,42 @@ mod tests {
             assert!((roughness.heights[0][n] - exact).abs() < 1e-14);
         }
     }
+    /// A made surface is the same whatever the mesh: where three meshes have a node, they have the same height.
+    #[test]
+    fn a_made_surface_does_not_know_its_mesh() {
+        let settings = [
+            "kind=random",
+            "rq_m=2e-7",
+            "correlation_x_m=4e-5",
+            "cutoff_short_m=3e-5",
+        ]
+        .map(|key| format!("body_1.surface.{key}").parse().expect("a setting"));
+        let scene = crate::scene::Scene::load_with("demonstration", &settings).expect("it fits");
+        let surfaces = [&scene.body_1.surface, &Surface::Smooth {}];
+        let heights = [129, 257, 513].map(|n| {
+            let grid = Grid::new(n, -2.0, 1.5, 2.0, Symmetry::General);
+            let mut roughness = Roughness::new(&grid, surfaces, 0.47e-3, Heading::Forward);
+            let travel = BodyTravel {
+                travelled: 0.37,
+                in_passage: None,
+            };
+            roughness.place(&grid, 0, travel, 1.0);
+            let every = (n - 1) / 128;
+            let common = (0..grid.len())
+                .filter(|m| (m % n) % every == 0 && (m / n) % every == 0)
+                .map(|m| roughness.heights[0][m]);
+            common.collect::<Vec<f64>>()
+        });
+        let differ = |one: &[f64], other: &[f64]| {
+            let apart = one.iter().zip(other).map(|(a, b)| (a - b).abs());
+            apart.fold(0.0, f64::max)
+        };
+        let greatest = heights[0].iter().fold(0.0_f64, |a, z| a.max(z.abs()));
+        assert!(heights[0].len() == 129 * 129 && greatest > 0.5);
+        assert!(differ(&heights[0], &heights[1]) < 1e-6);
+        assert!(differ(&heights[0], &heights[2]) < 1e-6);
+    }
+
     #[test]
     fn a_map_moves_with_its_body() {
         let grid = Grid::new(33, -2.0, 1.5, 2.0, Symmetry::General);

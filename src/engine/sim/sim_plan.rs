@@ -279,11 +279,10 @@ fn grounds_of(scene: &Scene, decided: &Plan) -> Grounds {
 
 /// Root-mean-square height over amplitude; 0 for a surface without height.
 fn rms_share(surface: &Surface) -> f64 {
-    if surface.amplitude_m() > 0.0 {
-        surface.rq_m() / surface.amplitude_m()
-    } else {
-        0.0
-    }
+    // Of one that a hand may still turn up, too.
+    let mut unit = surface.clone();
+    unit.set_amplitude_m(1.0);
+    unit.rq_m()
 }
 
 fn traction_law(scene: &Scene, scaling: &Scaling) -> TractionLaw {

@@ -222,6 +222,15 @@ pub struct Summary {
     /// Seconds until the first mesh had a life; `None`: there is none.
     #[serde(default)]
     pub first_life_s: Option<f64>,
+    /// Root-mean-square height of body 1 as its amplitude now is, m.
+    #[serde(default)]
+    pub rq_1_m: f64,
+    /// Same of body 2, m.
+    #[serde(default)]
+    pub rq_2_m: f64,
+    /// Shortest wave of the made surfaces, m, on which lives hang; `None`: there are none.
+    #[serde(default)]
+    pub cutoff_short_m: Option<f64>,
     /// The height map of body 1; left out where it has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map_body_1: Option<MapReport>,

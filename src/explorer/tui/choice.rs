@@ -225,7 +225,7 @@ fn lay(surface: &Surface) -> Lay {
             (true, true) => Lay::Isotropic,
             (false, false) => Lay::Other,
         },
-        Surface::Sinusoid { .. } | Surface::HeightMap { .. } => Lay::Other,
+        Surface::Sinusoid { .. } | Surface::Random(_) | Surface::HeightMap { .. } => Lay::Other,
     }
 }
 
@@ -236,7 +236,7 @@ fn wavelength(surface: &Surface) -> Option<f64> {
             wavelength_y_m: y,
             ..
         } => Some(x.min(y)).filter(|wave| wave.is_finite()),
-        Surface::Smooth {} | Surface::HeightMap { .. } => None,
+        Surface::Smooth {} | Surface::Random(_) | Surface::HeightMap { .. } => None,
     }
 }
 

@@ -215,7 +215,7 @@ pub(super) fn may_follow(before: &Scene, scene: &Scene) -> bool {
         scene
     };
     let is_map = |surface: &&Surface| match surface {
-        Surface::HeightMap { .. } => true,
+        Surface::Random(_) | Surface::HeightMap { .. } => true,
         Surface::Smooth {} | Surface::Sinusoid { .. } => false,
     };
     stripped(before) == stripped(scene) && !scene.surfaces().iter().any(is_map)

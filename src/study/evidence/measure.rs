@@ -104,7 +104,9 @@ fn wave_of(scene: &Scene) -> Result<(f64, f64), String> {
             wavelength_x_m,
             ..
         } => Ok((wavelength_x_m, amplitude_m)),
-        Surface::Smooth {} | Surface::HeightMap { .. } => Err("body 1 has no wave".to_owned()),
+        Surface::Smooth {} | Surface::Random(_) | Surface::HeightMap { .. } => {
+            Err("body 1 has no wave".to_owned())
+        }
     }
 }
 

@@ -117,7 +117,7 @@ fn map_seen_m(plan: &SimPlan, state: &State) -> [Option<[f64; 2]>; 2] {
     let distance_m = state.distance * plan.decided.hertz.a_m;
     [-0.5, 0.5].map(|side| {
         let body = usize::from(side > 0.0);
-        let length_m = plan.decided.maps[body].as_ref()?.size_x_m;
+        let length_m = plan.scene.surfaces()[body].relief_length_m()?;
         let ratio = (1.0 + side * slide_roll).abs();
         let seen_m = distance_m * ratio;
         (ratio > 0.0 && seen_m < (1.0 - SEEN_WHOLE) * length_m).then_some([seen_m, length_m])

@@ -56,6 +56,7 @@ impl Choice {
                 Surface::Sinusoid { .. } | Surface::HeightMap { .. } => {
                     vec![of_surface(body, "amplitude_m")]
                 }
+                Surface::Random(_) => vec![of_surface(body, "rq_m")],
             },
             Self::Wavelength(body) => match *surface(scene, body) {
                 Surface::Sinusoid {
@@ -70,7 +71,7 @@ impl Choice {
                 .filter(|(_, wave_m)| wave_m.is_finite())
                 .map(|(key, _)| of_surface(body, key))
                 .collect(),
-                Surface::Smooth {} | Surface::HeightMap { .. } => Vec::new(),
+                Surface::Smooth {} | Surface::Random(_) | Surface::HeightMap { .. } => Vec::new(),
             },
             Self::Preset | Self::Lay(_) | Self::Measure | Self::Model | Self::Nodes => Vec::new(),
         }
