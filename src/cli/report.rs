@@ -6,7 +6,7 @@ mod life;
 use std::fmt::Write as _;
 
 use asperity_engine::math::number::{GPA, NM, UM, counted, seconds, sig};
-use asperity_engine::scene::{ContactKind, Scene};
+use asperity_engine::scene::{ContactKind, Lubricant, Scene};
 use asperity_engine::sim::{CATALOGUE, LubricationRegime, Rhythm, Rung, Summary};
 use asperity_session::run::{End, Outcome};
 
@@ -127,6 +127,9 @@ fn add_results(lines: &mut Lines, scene: &Scene, s: &Summary) {
         ),
     );
     lines.add("motion", motion(scene));
+    for oil in scene.lubricant.iter().filter_map(Lubricant::conversion) {
+        lines.add("oil", oil);
+    }
     for (name, surface) in ["map 1", "map 2"].into_iter().zip(scene.surfaces()) {
         for (k, line) in surface.relief_lines().into_iter().enumerate() {
             lines.add(if k == 0 { name } else { "" }, line);

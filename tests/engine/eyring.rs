@@ -194,7 +194,7 @@ fn compare(gear: &Gear, wave_m: f64, (flow, law): Form) -> ([Ripple; 3], f64) {
     let read = read(&scene, k * body_m_s);
     let oil = scene.lubricant.as_ref().unwrap();
     let share = read.pressure_pa / hertz.p_max_pa;
-    let (eta_0, alpha) = (oil.viscosity_pa_s, oil.pressure_viscosity_per_pa);
+    let (eta_0, alpha) = (oil.viscosity_pa_s(), oil.pressure_viscosity_per_pa());
     let viscosity = eta_0
         * Viscosity::roelands(eta_0, alpha, hertz.p_max_pa)
             .ln_eta(share)

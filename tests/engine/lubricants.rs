@@ -111,3 +111,71 @@ fn jfo_keeps_the_mass_behind_the_rupture() {
     // The check can fail: the other condition makes oil.
     assert!(reynolds > 0.02, "{reynolds}");
 }
+
+/// A grade stands for viscosity and coefficient, which are what the film regressions then take; either way of giving the oil
+/// takes the other's place.
+#[test]
+fn an_oil_by_its_grade() {
+    use asperity_engine::scene::{Override, Scene};
+    let load = |settings: &[&str]| {
+        let settings: Vec<Override> = settings.iter().map(|s| s.parse().unwrap()).collect();
+        Scene::load_with("fzg_point_b", &settings).map_err(|error| error.to_string())
+    };
+    let by_grade = load(&["lubricant.vg=100", "lubricant.temperature_c=90"]).unwrap();
+    let oil = by_grade.lubricant.as_ref().unwrap();
+    let (viscosity, alpha) = (oil.viscosity_pa_s(), oil.pressure_viscosity_per_pa());
+    // FVA 3 and its like at 90 degrees: 14 to 15 mm2/s, 12 mPa s.
+    assert!((viscosity - 0.0118).abs() < 0.0006, "{viscosity}");
+    assert!((alpha - 1.46e-8).abs() < 0.03e-8, "{alpha}");
+    let again = Scene::from_toml(&by_grade.to_toml()).unwrap();
+    assert_eq!(again, by_grade);
+    let number = |key: &str, value: f64| format!("lubricant.{key}={value:e}");
+    let by_number = load(&[
+        &number("viscosity_pa_s", viscosity),
+        &number("pressure_viscosity_per_pa", alpha),
+    ])
+    .unwrap();
+    let films = [&by_grade, &by_number].map(|scene| scene.line_point().unwrap());
+    assert_eq!(films[0].viscosity_pa_s, films[1].viscosity_pa_s);
+    assert_eq!(films[0].alpha_per_pa, films[1].alpha_per_pa);
+    // The last word counts.
+    let back = load(&[
+        "lubricant.vg=100",
+        "lubricant.temperature_c=90",
+        "lubricant.viscosity_pa_s=0.02",
+        "lubricant.pressure_viscosity_per_pa=2e-8",
+    ])
+    .unwrap();
+    assert_eq!(
+        (
+            back.lubricant.as_ref().unwrap().vg,
+            back.lubricant.unwrap().viscosity_pa_s()
+        ),
+        (None, 0.02)
+    );
+    let own = load(&[
+        "lubricant.vg=100",
+        "lubricant.temperature_c=90",
+        "lubricant.pressure_viscosity_per_pa=2e-8",
+    ])
+    .unwrap();
+    assert_eq!(own.lubricant.unwrap().pressure_viscosity_per_pa(), 2e-8);
+    for (settings, words) in [
+        (
+            &["lubricant.vg=100"][..],
+            "lubricant.temperature_c is missing",
+        ),
+        (&["lubricant.temperature_c=90"], "only with lubricant.vg"),
+        (
+            &["lubricant.viscosity_pa_s=none"],
+            "lubricant.viscosity_pa_s is missing",
+        ),
+        (
+            &["lubricant.vg=2.5", "lubricant.temperature_c=90"],
+            "below which no index is defined",
+        ),
+    ] {
+        let error = load(settings).unwrap_err();
+        assert!(error.contains(words), "{settings:?}: {error}");
+    }
+}

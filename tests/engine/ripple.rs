@@ -109,8 +109,12 @@ fn density(scene: &Scene, p: f64) -> (f64, f64) {
 fn conductance(scene: &Scene, p: f64, h: f64) -> f64 {
     let oil = scene.lubricant.as_ref().unwrap();
     let p_hertz = scene.hertz().p_max_pa;
-    let law = Viscosity::roelands(oil.viscosity_pa_s, oil.pressure_viscosity_per_pa, p_hertz);
-    let eta = oil.viscosity_pa_s * law.ln_eta(p / p_hertz).0.exp();
+    let law = Viscosity::roelands(
+        oil.viscosity_pa_s(),
+        oil.pressure_viscosity_per_pa(),
+        p_hertz,
+    );
+    let eta = oil.viscosity_pa_s() * law.ln_eta(p / p_hertz).0.exp();
     let sliding = (scene.motion.slide_roll * scene.motion.entrainment_m_s).abs();
     let free = (eta * sliding / (oil.eyring_stress_pa * h)).asinh();
     let thin = match oil.eyring_flow {

@@ -198,7 +198,7 @@ fn bad_values_are_refused_with_key_value_and_range() {
             "body_1.surface.kind=fractal",
             "body_1.surface.kind",
             "\"fractal\"",
-            "\"smooth\" or \"sinusoid\" or \"height_map\"",
+            "\"smooth\" or \"sinusoid\" or \"random\" or \"height_map\"",
         ),
         (
             "numerics.max_iterations=0",
@@ -230,7 +230,9 @@ fn every_number_key_refuses_what_is_no_number_or_out_of_range() {
             keys::Kind::Number(..) => &["nan", "-inf", "inf", "\"x\"", "1e300", "true"],
             keys::Kind::EitherSign(..) => &["nan", "-inf", "inf", "\"x\"", "0.0", "-1e300", "true"],
             keys::Kind::NumberOrInf(..) => &["nan", "-inf", "-1.0", "0.0", "\"x\""],
-            keys::Kind::Integer(..) | keys::Kind::IntegerOf(_) => &["1.5", "-1", "99999999", "nan"],
+            keys::Kind::Integer(..) | keys::Kind::IntegerOf(_) => {
+                &["1.5", "-1", "9999999999", "nan"]
+            }
             keys::Kind::Choice(_) => &["\"nonsense\"", "1.0", "nan"],
             keys::Kind::Switch => &["\"true\"", "1", "nan"],
         };

@@ -156,14 +156,14 @@ fn scenes_have_the_groups_that_their_sources_name() {
         // M = W (2U)^{-1/2}, L = G (2U)^{1/4}.
         let e_prime = scene.e_prime_pa();
         let oil = scene.lubricant.as_ref().unwrap();
-        let twice = 2.0 * oil.viscosity_pa_s * scene.motion.entrainment_m_s
+        let twice = 2.0 * oil.viscosity_pa_s() * scene.motion.entrainment_m_s
             / (e_prime * scene.contact.rx_m);
         let load = scene.force_n() / (e_prime * scene.contact.rx_m);
         assert!(
             (load / twice.sqrt() / m - 1.0).abs() < 1e-3,
             "{name} {line:?}"
         );
-        let own = oil.pressure_viscosity_per_pa * e_prime * twice.powf(0.25);
+        let own = oil.pressure_viscosity_per_pa() * e_prime * twice.powf(0.25);
         assert!((own / l - 1.0).abs() < 1e-3, "{name}");
     }
 }

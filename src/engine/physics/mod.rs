@@ -19,6 +19,7 @@ pub mod levelling;
 pub mod life_models;
 pub mod line;
 pub mod multiaxial;
+pub mod oil_grade;
 pub mod race_and_cam;
 pub mod rainflow;
 pub mod random_surface;

@@ -78,6 +78,9 @@ impl Plan {
             significant(u_1),
             significant(u_2)
         )?;
+        if let Some(oil) = &self.oil_line {
+            writeln!(f, "Oil         {oil}")?;
+        }
         self.write_film(f)?;
         for (index, wave) in self.waves.iter().enumerate() {
             if let Some(wave) = wave {

@@ -29,8 +29,8 @@ pub use crate::math::grid::Symmetry;
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
 use crate::scene::{
-    ContactKind, EyringFlow, MINIMUM_HARDNESS, MapReport, Order, OrderAsked, Record, Scene,
-    StressMeasure, Surface,
+    ContactKind, EyringFlow, Lubricant, MINIMUM_HARDNESS, MapReport, Order, OrderAsked, Record,
+    Scene, StressMeasure, Surface,
 };
 
 /// Everything that is decided before the first step.
@@ -48,6 +48,8 @@ pub struct Plan {
     pub speeds_m_s: [f64; 2],
     /// Slide-to-roll ratio S = (U2 - U1)/U.
     pub slide_roll: f64,
+    /// How grade and temperature became viscosity and pressure coefficient, in words; `None`: the scene gives those.
+    pub oil_line: Option<String>,
     /// The film; `None`: dry.
     pub film: Option<FilmPlan>,
     /// Nodes and edges.
@@ -289,6 +291,7 @@ impl Plan {
             force_n: scene.force_n(),
             speeds_m_s: scene.speeds_m_s(),
             slide_roll: scene.motion.slide_roll,
+            oil_line: scene.lubricant.as_ref().and_then(Lubricant::conversion),
             film,
             domain,
             order,

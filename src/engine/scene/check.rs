@@ -7,6 +7,7 @@ use super::Knob;
 use super::error::drives_a_terminal;
 use super::error::{SceneError, nearest};
 use super::keys::{self, EVENT_KEYS, Key, Kind, Need, SECTIONS, Section, joined, short};
+use super::lubricant::Lubricant;
 use super::model::{Event, Scene, Surface, SurfaceKind};
 use super::shape::{check_carried, check_force, check_hardness, check_load, check_shape};
 use super::wrong::refusal;
@@ -237,6 +238,7 @@ pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
     check_shape(scene)?;
     check_load(scene)?;
     check_hardness(scene)?;
+    scene.lubricant.as_ref().map_or(Ok(()), Lubricant::check)?;
     check_surface("body_1.surface", &scene.body_1.surface)?;
     check_surface("body_2.surface", &scene.body_2.surface)?;
     if scene.life.is_some() && scene.stress.is_none() {

@@ -96,8 +96,8 @@ impl Scene {
         (self.contact.kind == ContactKind::Line).then(|| LinePoint {
             rx_m: self.contact.rx_m,
             e_prime_pa: self.e_prime_pa(),
-            viscosity_pa_s: oil.viscosity_pa_s,
-            alpha_per_pa: oil.pressure_viscosity_per_pa,
+            viscosity_pa_s: oil.viscosity_pa_s(),
+            alpha_per_pa: oil.pressure_viscosity_per_pa(),
             // Films do not know which way the oil flows.
             entrainment_m_s: self.motion.entrainment_m_s.abs(),
             load_n_per_m: self.force_n(),
@@ -111,8 +111,8 @@ impl Scene {
             rx_m: self.contact.rx_m,
             ry_m: self.ry_m(),
             e_prime_pa: self.e_prime_pa(),
-            viscosity_pa_s: lubricant.viscosity_pa_s,
-            alpha_per_pa: lubricant.pressure_viscosity_per_pa,
+            viscosity_pa_s: lubricant.viscosity_pa_s(),
+            alpha_per_pa: lubricant.pressure_viscosity_per_pa(),
             entrainment_m_s: self.motion.entrainment_m_s.abs(),
             force_n: self.force_n(),
         })

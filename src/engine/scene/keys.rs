@@ -125,8 +125,11 @@ pub const SECTIONS: &[Section] = &[
         need: Optional("dry contact"),
         doc: "The oil. Omit the table for a dry scene.",
         keys: &[
-            key("viscosity_pa_s", "Pa s", Number(1e-6, 1e4), Required, "viscosity at ambient pressure"),
-            key("pressure_viscosity_per_pa", "1/Pa", Number(0.0, 1e-7), Required, "pressure-viscosity coefficient alpha"),
+            key("viscosity_pa_s", "Pa s", Number(1e-6, 1e4), Optional("that of vg"), "viscosity at ambient pressure"),
+            key("pressure_viscosity_per_pa", "1/Pa", Number(0.0, 1e-7), Optional("by the viscosity, with vg"), "pressure-viscosity coefficient alpha"),
+            key("vg", "", Number(2.0, 5000.0), Optional("the viscosity is given"), "ISO viscosity grade of a mineral oil, mm2/s at 40 degrees, in place of viscosity and pressure coefficient"),
+            key("temperature_c", "degrees C", Number(-60.0, 250.0), Optional("only with vg, which needs it"), "temperature of the oil that enters"),
+            key("viscosity_index", "", Number(0.0, 400.0), Optional("95; only with vg"), "how little the viscosity falls with temperature"),
             key("viscosity_law", "", Choice(ViscosityLaw::KEYS), Defaulted, "viscosity against pressure"),
             key("density_law", "", Choice(DensityLaw::KEYS), Defaulted, "density against pressure p in GPa: 1 + 0.6 p/(1 + 1.7 p), or the same law with other round numbers, (0.59 + 1.34 p)/(0.59 + p)"),
             key("rheology", "", Choice(Rheology::KEYS), Defaulted, "shear law of the film"),

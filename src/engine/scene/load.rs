@@ -108,6 +108,19 @@ impl Override {
             // A contact made a line has no radius across; its load must be given per length or as pressure.
             table.remove("ry_m");
         }
+        if path == "lubricant"
+            && let Some(table) = descend(root, path)
+        {
+            // So do the ways of giving the oil.
+            let others: &[&str] = match name {
+                "viscosity_pa_s" => &["vg", "temperature_c", "viscosity_index"],
+                "vg" => &["viscosity_pa_s", "pressure_viscosity_per_pa"],
+                _ => &[],
+            };
+            for other in others {
+                table.remove(*other);
+            }
+        }
         if path == "load" {
             // The ways of giving the load exclude each other: the last word counts.
             if let Some(table) = descend(root, path) {

@@ -92,7 +92,7 @@ impl Scaling {
             density: Density::Incompressible,
         };
         if let Some(oil) = &scene.lubricant {
-            let (eta, alpha) = (oil.viscosity_pa_s, oil.pressure_viscosity_per_pa);
+            let (eta, alpha) = (oil.viscosity_pa_s(), oil.pressure_viscosity_per_pa());
             scaling.lambda_s_m = 12.0 * eta * rx * rx / (a.powi(3) * p);
             scaling.viscosity = oil.viscosity_law.scaled(eta, alpha, p);
             scaling.density = oil.density_law.scaled(p);

@@ -60,7 +60,7 @@ impl SimPlan {
             flow,
             tolerances: [flow, Flow::Dry].map(|flow| tolerance_of(scene, flow, &scaling)),
             shear_rate: scene.lubricant.as_ref().map_or(0.0, |oil| {
-                oil.viscosity_pa_s / (scaling.p_hertz_pa * scaling.film_m)
+                oil.viscosity_pa_s() / (scaling.p_hertz_pa * scaling.film_m)
             }),
             law: traction_law(scene, &scaling),
             grounds: grounds_of(scene, &decided),

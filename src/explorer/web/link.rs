@@ -246,7 +246,7 @@ mod tests {
         assert_eq!(link.scene.motion.slide_roll, 0.2);
         let load = Knob::of_load(link.scene.contact.kind);
         assert!([Knob::ForceN, Knob::ForceNPerM].contains(&load));
-        assert_eq!(link.scene.lubricant.unwrap().viscosity_pa_s, 0.02);
+        assert_eq!(link.scene.lubricant.unwrap().viscosity_pa_s(), 0.02);
         let nothing = PageLink::read("").unwrap();
         assert_eq!(
             (nothing.name.as_str(), nothing.nodes),

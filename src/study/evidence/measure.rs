@@ -146,7 +146,7 @@ fn hooke(scene: &Scene, plan: &Plan) -> Result<Values, String> {
     let read = read(scene, plan, k * body_m_s, RIPPLE_REACH)?;
     let (a_m, p_h) = (plan.hertz.a_m, plan.hertz.p_max_pa);
     let share = read.pressure_pa / p_h;
-    let (eta_0, alpha) = (oil.viscosity_pa_s, oil.pressure_viscosity_per_pa);
+    let (eta_0, alpha) = (oil.viscosity_pa_s(), oil.pressure_viscosity_per_pa());
     let viscosity = eta_0
         * oil
             .viscosity_law

@@ -200,8 +200,11 @@ impl Forced {
 /// continuum, and its steps do not converge.
 fn thinnest() -> Lubricant {
     Lubricant {
-        viscosity_pa_s: 1e-3,
-        pressure_viscosity_per_pa: 0.0,
+        viscosity_pa_s: Some(1e-3),
+        pressure_viscosity_per_pa: Some(0.0),
+        vg: None,
+        temperature_c: None,
+        viscosity_index: None,
         viscosity_law: asperity_engine::scene::ViscosityLaw::Barus,
         density_law: asperity_engine::scene::DensityLaw::Incompressible,
         rheology: Rheology::Newtonian,
