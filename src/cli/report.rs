@@ -116,6 +116,18 @@ pub(crate) fn stopped(outcome: &Outcome) -> String {
     )
 }
 
+/// What the program made of the oil and of the surfaces that it was given.
+fn add_oil_and_surfaces(lines: &mut Lines, scene: &Scene) {
+    for oil in scene.lubricant.iter().filter_map(Lubricant::conversion) {
+        lines.add("oil", oil);
+    }
+    for (name, surface) in ["map 1", "map 2"].into_iter().zip(scene.surfaces()) {
+        for (k, line) in surface.relief_lines().into_iter().enumerate() {
+            lines.add(if k == 0 { name } else { "" }, line);
+        }
+    }
+}
+
 fn add_results(lines: &mut Lines, scene: &Scene, s: &Summary) {
     lines.add(
         "contact",
@@ -127,14 +139,7 @@ fn add_results(lines: &mut Lines, scene: &Scene, s: &Summary) {
         ),
     );
     lines.add("motion", motion(scene));
-    for oil in scene.lubricant.iter().filter_map(Lubricant::conversion) {
-        lines.add("oil", oil);
-    }
-    for (name, surface) in ["map 1", "map 2"].into_iter().zip(scene.surfaces()) {
-        for (k, line) in surface.relief_lines().into_iter().enumerate() {
-            lines.add(if k == 0 { name } else { "" }, line);
-        }
-    }
+    add_oil_and_surfaces(lines, scene);
     lines.add(
         "pressure",
         format!(

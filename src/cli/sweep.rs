@@ -202,6 +202,9 @@ fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
     let csv = rows.csv(sweep)?;
     folder.write(&table, csv.as_bytes())?;
     folder.write(&root.join("seconds.csv"), rows.seconds_csv().as_bytes())?;
+    if let Some(seeds) = rows.seeds_csv(sweep) {
+        folder.write(&root.join("seeds.csv"), seeds.as_bytes())?;
+    }
     if !sweep.path.is_empty() {
         folder.write(&root.join("path.csv"), points_csv(sweep)?.as_bytes())?;
     }
@@ -230,6 +233,9 @@ fn told(sweep: &Sweep, rows: &Rows, table: &Path, pictures: &[String]) -> String
         if high > 0.0 {
             let _ = writeln!(text, "relative life from {low:.3e} to {high:.3e}");
         }
+    }
+    for line in rows.seeds_lines(sweep) {
+        let _ = writeln!(text, "{line}");
     }
     let _ = writeln!(text, "table     {}", table.display());
     for picture in pictures {

@@ -966,3 +966,55 @@ fn of_two_sweeps_that_begin_together_in_one_folder_one_does() {
         }
     }
 }
+
+/// Seeds of made surfaces are summed up beside the table: the mean is that of the table's own logarithms, each S by itself, and one
+/// key, body 1's seed, draws both surfaces.
+#[test]
+fn seeds_are_averaged_where_they_vary() {
+    let surface = |body: u8| {
+        format!(
+            "body_{body}.surface.kind = \"random\"\nbody_{body}.surface.rq_m = 1e-7\nbody_{body}.surface.correlation_x_m = 6e-5\n\
+             body_{body}.surface.correlation_y_m = inf\n"
+        )
+    };
+    let text = format!(
+        "scene = \"fzg_point_b\"\n[set]\n{}{}grid.nodes = 129\n[vary]\nmotion.slide_roll = [0.0, 0.4]\nbody_1.surface.seed = [1, 2, 3]\n\
+         [chain]\npassages = 0.5\n",
+        surface(1),
+        surface(2)
+    );
+    let sweep = sweep(&text);
+    let root = tempfile::tempdir().unwrap();
+    let (folder, _) = fill(&sweep, root.path(), None, 2);
+    let rows = Rows::gather(&sweep, &[folder]).unwrap();
+    let column = |name| rows.column(&sweep, name).unwrap();
+    let (lives, slides) = (column("life_common"), column("motion.slide_roll"));
+    assert_eq!(lives.len(), 6);
+    let csv = rows.seeds_csv(&sweep).unwrap();
+    println!("{}", rows.seeds_lines(&sweep).join("\n"));
+    let mut lines = csv.lines();
+    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let place = |name: &str| head.iter().position(|of| *of == name).unwrap();
+    let mut means = Vec::new();
+    for (line, s) in lines.zip([0.0, 0.4]) {
+        let cells: Vec<f64> = line
+            .split(',')
+            .map(|cell| cell.parse().unwrap_or(f64::NAN))
+            .collect();
+        let own: Vec<f64> = (0..6)
+            .filter(|&k| slides[k] == s)
+            .map(|k| lives[k])
+            .collect();
+        let product: f64 = own.iter().product();
+        assert_eq!((cells[0], cells[1], own.len()), (s, 3.0, 3));
+        assert!((cells[place("life_common_mean")] / product.cbrt() - 1.0).abs() < 1e-12);
+        let least = own.iter().copied().fold(f64::INFINITY, f64::min);
+        assert_eq!(cells[place("life_common_least")], least);
+        assert!(
+            own.iter().any(|life| (life / least - 1.0).abs() > 0.01),
+            "pairs differ"
+        );
+        means.push(product.cbrt());
+    }
+    assert!(means[1] < means[0], "{means:?}");
+}

@@ -203,6 +203,21 @@ fn a_scene_keeps_its_surface() {
     let again = Scene::from_toml(&made.to_toml()).expect("it reads its own");
     assert_eq!(made, again);
     assert_ne!(scene(&["body_1.surface.seed=2"]).expect("another"), made);
+    // One key draws another pair.
+    let both = ["kind=random", "rq_m=1e-7", "correlation_x_m=4e-5"]
+        .map(|key| format!("body_2.surface.{key}"));
+    let of = |seed: &str| {
+        let settings = [&both[0], &both[1], &both[2], seed];
+        let seeds = scene(&settings)
+            .expect("it fits")
+            .surfaces()
+            .map(|surface| match surface {
+                Surface::Random(random) => random.seed,
+                _ => None,
+            });
+        seeds
+    };
+    assert_eq!(of("body_1.surface.seed=7"), [Some(7), Some(1_000_007)]);
     let mut turned = made.clone();
     turned.body_1.surface.set_amplitude_m(5e-7);
     assert!((turned.body_1.surface.amplitude_m() / 5e-7 - 1.0).abs() < 1e-12);

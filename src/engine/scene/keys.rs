@@ -41,7 +41,7 @@ const SURFACE: &[Key] = &[
     key("outliers", "", Choice(MapOutliers::KEYS), Defaulted, "pixels that stand out of the 5 by 5 about them by six times the usual are kept, or become the median of those"),
     key("unit_m", "m", Number(1e-12, 1e3), Optional("as the header of the file says, else 1"), "height that a value of 1 stands for; a header that says otherwise is refused"),
     key("start_x_m", "m", Number(-1e3, 1e3), Optional("just upstream of the domain"), "where the middle of a windowed map is at t = 0"),
-    key("seed", "", Integer(0, 1_000_000_000), Optional("1 on body 1, 2 on body 2"), "which surface of that kind: equal seeds and keys make equal surfaces"),
+    key("seed", "", Integer(0, 1_000_000_000), Optional("1; on body 2 a million more than body 1's"), "which surface of that kind: equal seeds and keys make equal surfaces"),
     key("rq_m", "m", Number(0.0, 1e-4), Required, "root-mean-square height of the made surface, all its waves together"),
     key("autocorrelation", "", Choice(Autocorrelation::KEYS), Defaulted, "how heights a way r apart are related, r in correlation lengths: e^-r, e^-r^2, or by a power law of the spectrum between the cut-offs"),
     key("correlation_x_m", "m", NumberOrInf(1e-7, 1.0), Optional("self_affine alone, which has none"), "way along x over which the correlation falls to 1/e; inf: longitudinal ridges"),

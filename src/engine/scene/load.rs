@@ -11,6 +11,7 @@ use super::height_map;
 use super::keys;
 use super::model::{Scene, Surface};
 use super::presets;
+use super::random::RandomSurface;
 use crate::files::read_up_to;
 
 /// Longest scene file, bytes. Scenes are some kilobytes; anything longer is not one.
@@ -229,9 +230,11 @@ impl Scene {
             ("body_1.surface", &mut self.body_1),
             ("body_2.surface", &mut self.body_2),
         ];
-        for (number, (table, body)) in (1..).zip(bodies) {
+        let mut seed = None;
+        for (table, body) in bodies {
             if let Surface::Random(random) = &mut body.surface {
-                random.make(table, number)?;
+                random.make(table, RandomSurface::usual_seed(seed))?;
+                seed = random.seed;
             }
             if let Surface::HeightMap {
                 file,

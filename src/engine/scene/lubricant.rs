@@ -111,9 +111,9 @@ impl Lubricant {
         };
         Some(format!(
             "ISO VG {}, VI {}, {} °C: {} mm²/s (ASTM D2270, D341) x {} kg/m³ = {} Pa s; pressure coefficient {} 1/Pa ({alpha})",
-            sig(grade.vg, 4),
-            sig(grade.viscosity_index, 3),
-            sig(temperature_c, 3),
+            short(grade.vg),
+            short(grade.viscosity_index),
+            short(temperature_c),
             sig(1e6 * self.viscosity_pa_s() / density, 4),
             sig(density, 4),
             sig(self.viscosity_pa_s(), 4),

@@ -27,6 +27,7 @@ macro_rules! preset {
 const PRESETS: &[Preset] = &[
     preset!("demonstration"),
     preset!("demonstration_quick"),
+    preset!("random_rollers"),
     preset!("ball_bearing"),
     preset!("ball_bearing_worn"),
     preset!("twin_disc"),

@@ -14,7 +14,7 @@ use crate::physics::random_surface::{Autocorrelation, RandomSpectrum};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RandomSurface {
-    /// Which surface of that kind; `None`: 1 on body 1, 2 on body 2, filled in when it is made.
+    /// Which surface of that kind; `None`: [`RandomSurface::usual_seed`], filled in when it is made.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
     /// Root-mean-square height, m.
@@ -97,9 +97,9 @@ impl RandomSurface {
         [of(self.period_x_m, x_m), of(self.period_y_m, y_m)]
     }
 
-    fn spectrum(&self, body: u64) -> RandomSpectrum {
+    fn spectrum(&self, seed: u64) -> RandomSpectrum {
         RandomSpectrum {
-            seed: self.seed.unwrap_or(body),
+            seed: self.seed.unwrap_or(seed),
             autocorrelation: self.autocorrelation,
             correlation_m: self.correlation_m(),
             hurst: self.hurst.unwrap_or(HURST),
@@ -109,16 +109,22 @@ impl RandomSurface {
         }
     }
 
-    /// Makes the heights, unless they are there; `body` is 1 or 2, `table` its table for messages.
+    /// The seed of a body that names none: 1 on body 1, on body 2 a million more than body 1's, so that one key, body 1's
+    /// seed, draws another pair of surfaces.
+    pub(super) fn usual_seed(of_body_1: Option<u64>) -> u64 {
+        of_body_1.map_or(1, |seed| seed + 1_000_000)
+    }
+
+    /// Makes the heights, unless they are there; `seed` is that of a body that names none, `table` its table for messages.
     ///
     /// # Errors
     /// [`SceneError::Value`] or [`SceneError::Missing`] that names the key that does not fit the others.
-    pub(super) fn make(&mut self, table: &str, body: u64) -> Result<(), SceneError> {
+    pub(super) fn make(&mut self, table: &str, seed: u64) -> Result<(), SceneError> {
         if self.made.is_some() {
             return Ok(());
         }
         self.check(table)?;
-        let spectrum = self.spectrum(body);
+        let spectrum = self.spectrum(seed);
         let [nx, ny] = spectrum.pixels();
         if nx.saturating_mul(ny) > MOST_PIXELS {
             let [x_m, y_m] = self.period_m().map(short);

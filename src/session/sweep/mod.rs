@@ -18,6 +18,7 @@ mod common;
 mod error;
 mod folder;
 mod maps;
+mod over_seeds;
 mod path;
 #[cfg(not(target_arch = "wasm32"))]
 mod plots;
@@ -40,6 +41,7 @@ pub use chain::{ChainList, Shard};
 pub use cold::{ColdComparison, against_cold};
 pub use error::SweepError;
 pub use folder::{Claimed, Existing, Folder};
+pub use over_seeds::Scatter;
 pub use path::PathPoint;
 #[cfg(not(target_arch = "wasm32"))]
 pub use plots::draw;

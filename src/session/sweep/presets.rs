@@ -20,6 +20,7 @@ macro_rules! preset {
 
 const PRESETS: &[SweepPreset] = &[
     preset!("slide_roll"),
+    preset!("random_rollers"),
     preset!("life_map"),
     preset!("stribeck"),
     preset!("lambda"),

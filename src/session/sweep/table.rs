@@ -228,11 +228,16 @@ pub(super) fn begin_row(row: &mut Cells, sweep: &Sweep, case: usize) {
 /// Writes the values of a case, one an axis, as the sweep file has them.
 pub(super) fn write_values(row: &mut Cells, sweep: &Sweep, case: usize) {
     for value in sweep.values(case) {
-        match value {
-            Value::Float(number) if !number.is_infinite() => row.number(*number),
-            Value::String(text) => row.text(text),
-            other => row.text(other),
-        }
+        write_value(row, value);
+    }
+}
+
+/// Writes a value as the sweep file has it.
+pub(super) fn write_value(row: &mut Cells, value: &Value) {
+    match value {
+        Value::Float(number) if !number.is_infinite() => row.number(*number),
+        Value::String(text) => row.text(text),
+        other => row.text(other),
     }
 }
 

@@ -18,13 +18,14 @@ const LOCK: &str = "sweep.lock";
 pub(super) const TEMPORARY: &str = "temporary-";
 
 /// Files with one name each.
-const NAMES: [&str; 7] = [
+const NAMES: [&str; 8] = [
     "sweep.toml",
     "base.toml",
     MARK,
     LOCK,
     "table.csv",
     "seconds.csv",
+    "seeds.csv",
     "path.csv",
 ];
 
