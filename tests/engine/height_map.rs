@@ -120,7 +120,10 @@ fn what_is_wrong_is_named() {
             map_table("none.npy", fine, ""),
             &["body_2.surface.file", "none.npy"],
         ),
-        (map_table("scene.toml", fine, ""), &[".npy, .csv or .txt"]),
+        (
+            map_table("scene.toml", fine, ""),
+            &[".npy, .csv, .txt, .x3p or .sur"],
+        ),
         (
             map_table("good.npy", -1.0, ""),
             &["body_2.surface.pixel_m", "1e-9 to 0.01 m"],

@@ -29,6 +29,7 @@ mod ripple;
 mod scene;
 mod simulation;
 mod stepping;
+mod surface_files;
 mod work_counters;
 mod yielding;
 mod yielding_steps;

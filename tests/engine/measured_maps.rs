@@ -248,7 +248,11 @@ fn a_key_that_says_otherwise_than_the_header_is_refused_with_both() {
         (
             "# Value units: m\n",
             "",
-            &["pixel_m is missing", "1e-9 to 0.01 m", "header"],
+            &[
+                "pixel_m is missing",
+                "1e-9 to 0.01 m",
+                "a file that says it",
+            ],
         ),
     ] {
         has_all(&refused(&format!("{header}{row}"), keys), parts);

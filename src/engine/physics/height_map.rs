@@ -73,6 +73,49 @@ pub struct HeightMap {
     pub facts: MapFacts,
 }
 
+crate::closed_set! {
+    /// What is wrong or odd about a map's file that could be read all the same.
+    pub enum FileDefect {
+        /// `.x3p`: not at the top of the archive.
+        Folder = "folder" "main.xml lies in a folder",
+        /// `.x3p`: the sum that the standard asks for is not there.
+        NoChecksum = "no_checksum" "no md5checksum.hex",
+        /// `.x3p`: neither of the two that are published.
+        Revision = "revision" "an unknown revision of the format",
+        /// `.x3p`: the heights lie elsewhere in the archive than main.xml says.
+        Link = "link" "a file does not lie where main.xml says",
+        /// `.x3p`: missing points are those that are no numbers alone.
+        NoValidity = "no_validity" "the file of valid points is not there",
+        /// `.x3p`: a comma for a decimal mark.
+        DecimalComma = "decimal_comma" "a decimal comma",
+        /// More bytes than the heights need.
+        LongData = "long_data" "more data than points",
+        /// `.sur`: another number of points than lines times points of a line.
+        PointCount = "point_count" "a wrong number of points",
+        /// `.sur`: taken as stored.
+        Inverted = "inverted" "marked as inverted, taken as stored",
+        /// `.sur`: taken as stored.
+        Replica = "replica" "marked as measured on a replica, taken as stored",
+    }
+}
+
+/// A set of [`FileDefect`]s.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct FileDefects(u16);
+
+impl FileDefects {
+    /// Adds one.
+    pub fn add(&mut self, defect: FileDefect) {
+        self.0 |= 1 << defect as u16;
+    }
+
+    /// Those in it, in their order.
+    pub fn list(self) -> Vec<FileDefect> {
+        let is_in = |defect: &FileDefect| self.0 & (1 << *defect as u16) != 0;
+        FileDefect::ALL.into_iter().filter(is_in).collect()
+    }
+}
+
 /// What was found in heights as they came, and what was done about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MapFacts {
@@ -86,6 +129,10 @@ pub struct MapFacts {
     pub plane_share: f64,
     /// Whether that plane stands as a step at the seams of a map that repeats ([`Pixels::is_open`]).
     pub is_open: bool,
+    /// How many points the file lacked; they were filled from their neighbours.
+    pub missing: usize,
+    /// What is odd about the file.
+    pub defects: FileDefects,
     /// How many outliers there were.
     pub outliers: usize,
     /// What became of them.
@@ -206,6 +253,8 @@ impl HeightMap {
                 plane_m: best.slopes,
                 plane_share: 0.0,
                 is_open: false,
+                missing: 0,
+                defects: FileDefects::default(),
                 outliers: 0,
                 outlying: MapOutliers::Keep,
                 shortest_without_outliers: None,

@@ -1,14 +1,19 @@
-//! Height maps from files: `.npy` and `.csv`, hostile until parsed.
+//! Height maps from files: `.npy`, `.csv`, `.x3p` and `.sur`, hostile until parsed.
 //!
 //! Columns run along x (the rolling direction), rows along y, the first row at −y. A value times `unit_m`
 //! is a height in m, positive towards the mating body. `.npy`: see [`npy`]. `.csv`, `.txt`: see [`text`];
-//! what lines that begin with `#` say of unit and size counts ([`header`]). `builtin:NAME` is a map that
+//! what lines that begin with `#` say of unit and size counts ([`header`]). `.x3p`: see [`x3p`]. `.sur`: see [`sur`];
+//! both say unit and size, and their missing points are filled ([`missing`]). No file's rows are turned over: the first
+//! one stands at −y, whatever a viewer makes of it. `builtin:NAME` is a map that
 //! comes with the program (scenes of `evidence/`).
 
 mod header;
+mod missing;
 mod npy;
 mod raster;
+mod sur;
 mod text;
+mod x3p;
 
 use std::hash::Hasher as _;
 use std::path::Path;
@@ -19,7 +24,7 @@ use super::keys::{self, joined, short};
 use super::map_report::tilt;
 use super::presets;
 use crate::files::{FnvHasher, read_up_to};
-use crate::physics::height_map::{HeightMap, MapEdge};
+use crate::physics::height_map::{FileDefects, HeightMap, MapEdge};
 use crate::physics::levelling::{MapLevel, MapOutliers};
 
 /// Largest file, bytes.
@@ -34,6 +39,27 @@ const GREATEST_M: f64 = 1e-3;
 struct Matrix {
     columns: usize,
     values: Vec<f64>,
+}
+
+/// A file that was read.
+struct Parsed {
+    matrix: Matrix,
+    header: Header,
+    /// Points that were filled.
+    missing: usize,
+    defects: FileDefects,
+}
+
+impl Parsed {
+    /// A file without missing points.
+    fn whole(matrix: Matrix, header: Header) -> Self {
+        Self {
+            matrix,
+            header,
+            missing: 0,
+            defects: FileDefects::default(),
+        }
+    }
 }
 
 /// What a file is refused for; the caller adds the key.
@@ -76,17 +102,23 @@ impl Asked<'_> {
         let refused = |r| self.refused(r);
         let read = match self.file.strip_prefix(presets::BUILTIN) {
             Some(name) => builtin(name),
-            None => matrix(&base.join(self.file)),
+            None => parsed(&base.join(self.file)),
         };
-        let (matrix, header) = read.map_err(refused)?;
+        let Parsed {
+            matrix,
+            header,
+            missing,
+            defects,
+        } = read.map_err(refused)?;
         let unit_m = self.unit_m(&header)?;
         check(&matrix, unit_m).map_err(refused)?;
         let pixel_m = self.pixel_m(&matrix, &header)?;
         let heights: Vec<f64> = matrix.values.iter().map(|v| v * unit_m).collect();
         let level = self.level.unwrap_or(self.beyond.usual_level());
         let treatment = (level, self.outliers);
-        let map = HeightMap::treated(matrix.columns, &heights, self.beyond, treatment)
+        let mut map = HeightMap::treated(matrix.columns, &heights, self.beyond, treatment)
             .ok_or_else(|| refused(refusal("flat", "a map whose heights differ")))?;
+        (map.facts.missing, map.facts.defects) = (missing, defects);
         if self.level.is_none() && map.facts.is_open {
             return Err(SceneError::map(
                 joined(self.table, "level"),
@@ -159,7 +191,7 @@ impl Asked<'_> {
             let Some((side_m, said)) = first else {
                 return Err(SceneError::Missing {
                     key: joined(self.table, "pixel_m"),
-                    allowed: format!("{allowed}, or a text file whose header says its width"),
+                    allowed: format!("{allowed}, or a file that says it"),
                 });
             };
             return match key {
@@ -207,23 +239,29 @@ pub(super) fn changed(table: &str, file: &str, found: &str) -> SceneError {
 }
 
 /// A map that comes with the program.
-fn builtin(name: &str) -> Result<(Matrix, Header), Refusal> {
+fn builtin(name: &str) -> Result<Parsed, Refusal> {
     let text = presets::map(name)
         .ok_or_else(|| refusal("no such map", "a map that comes with the program"))?;
-    text::parse(text.as_bytes())
+    let (matrix, header) = text::parse(text.as_bytes())?;
+    Ok(Parsed::whole(matrix, header))
 }
 
-fn matrix(path: &Path) -> Result<(Matrix, Header), Refusal> {
+fn parsed(path: &Path) -> Result<Parsed, Refusal> {
     let extension = path
         .extension()
         .and_then(std::ffi::OsStr::to_str)
         .map(str::to_ascii_lowercase);
     match extension.as_deref() {
-        Some("npy") => Ok((npy::parse(&bytes(path)?)?, Header::default())),
-        Some("csv" | "txt") => text::parse(&bytes(path)?),
+        Some("npy") => Ok(Parsed::whole(npy::parse(&bytes(path)?)?, Header::default())),
+        Some("csv" | "txt") => {
+            let (matrix, header) = text::parse(&bytes(path)?)?;
+            Ok(Parsed::whole(matrix, header))
+        }
+        Some("x3p") => x3p::parse(&bytes(path)?),
+        Some("sur") => sur::parse(&bytes(path)?),
         _ => Err(refusal(
             "unknown kind of file",
-            "a file that ends in .npy, .csv or .txt",
+            "a file that ends in .npy, .csv, .txt, .x3p or .sur",
         )),
     }
 }

@@ -33,7 +33,7 @@ const BODY: &[Key] = &[
 #[rustfmt::skip]
 const SURFACE: &[Key] = &[
     key("kind", "", Choice(SurfaceKind::KEYS), Required, "micro-geometry that moves with the body"),
-    key("file", "", Text(4096), Required, "heights, .npy or .csv, columns along x; path relative to this file; or builtin:NAME"),
+    key("file", "", Text(4096), Required, "heights, .npy, .csv, .x3p or .sur, columns along x; path relative to this file; or builtin:NAME"),
     key("digest", "", Text(16), Optional("the file is taken as it is"), "digest of the file's numbers: a file of another is refused; written by the program"),
     key("pixel_m", "m", Number(1e-9, 1e-2), Optional("as the header of the file says"), "side of a pixel; a header that says otherwise is refused"),
     key("edge", "", Choice(MapEdge::KEYS), Defaulted, "repeated without end, or once (tapered to 0)"),

@@ -7,7 +7,7 @@ use super::derived::side_m;
 use super::keys::short;
 use super::model::{MapEdge, MapLevel, MapOutliers, Scene, Surface};
 use crate::math::number::{counted, length, sig};
-use crate::physics::height_map::{HeightMap, MapFacts};
+use crate::physics::height_map::{FileDefect, HeightMap, MapFacts};
 
 /// A height map as it was read and treated, SI.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -42,6 +42,12 @@ pub struct MapReport {
     pub sq_m: f64,
     /// Greatest departure from the level over `sq_m`.
     pub max_over_sq: f64,
+    /// Points that the file lacks, filled from their neighbours.
+    #[serde(default)]
+    pub missing: usize,
+    /// What is odd about the file.
+    #[serde(default)]
+    pub defects: Vec<FileDefect>,
     /// Outlying pixels that the file has.
     pub outliers: usize,
     /// What became of them.
@@ -93,6 +99,8 @@ impl Surface {
             max_m,
             sq_m: map.rms * map.peak_m,
             max_over_sq: 1.0 / map.rms,
+            missing: facts.missing,
+            defects: facts.defects.list(),
             outliers: facts.outliers,
             outliers_are: facts.outlying,
             amplitude_m: self.amplitude_m(),
@@ -185,6 +193,14 @@ impl MapReport {
         if (self.amplitude_m / greatest_m - 1.0).abs() > 1e-9 {
             let amplitude = length(self.amplitude_m);
             lines.push(format!("then scaled to an amplitude of {amplitude}"));
+        }
+        if self.missing > 0 {
+            let what = counted(self.missing as u64, "missing point");
+            lines.push(format!("{what} filled from their neighbours"));
+        }
+        if !self.defects.is_empty() {
+            let names: Vec<&str> = self.defects.iter().map(|defect| defect.name()).collect();
+            lines.push(format!("odd about the file: {}", names.join("; ")));
         }
         if self.outliers > 0 {
             let what = counted(self.outliers as u64, "outlying pixel");

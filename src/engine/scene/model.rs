@@ -145,7 +145,7 @@ pub enum Surface {
     Random(RandomSurface),
     /// Heights from a file, by cubic interpolation.
     HeightMap {
-        /// `.npy` or `.csv`; relative paths are relative to the scene file, and become absolute when the
+        /// `.npy`, `.csv`, `.x3p` or `.sur`; relative paths are relative to the scene file, and become absolute when the
         /// scene is read.
         file: String,
         /// Side of a pixel, m; `None`: as the file's header says, and filled in when the file is read.

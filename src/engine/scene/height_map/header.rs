@@ -38,7 +38,33 @@ pub(super) struct Header {
 /// Sides by name.
 const SIDES: [&str; 2] = ["width", "height"];
 
+/// How far the two sides of a pixel may differ in a file of an instrument, over themselves.
+const UNSQUARE: f64 = 1e-3;
+
 impl Header {
+    /// What a file of an instrument says: the unit in m, and the sides of a pixel along x and y, m, of a map of
+    /// `sides` columns and rows, each with its words.
+    pub(super) fn of_instrument(
+        unit: (f64, String),
+        pixel: [(f64, String); 2],
+        sides: [usize; 2],
+    ) -> Self {
+        let said = |(value_m, words), slack| Said {
+            value_m,
+            slack,
+            words,
+        };
+        let [x, y] = pixel;
+        let side =
+            |(pixel_m, words), n: usize| Some(said((pixel_m * n as f64, words), UNSQUARE / 2.0));
+        Self {
+            unit: Some(said(unit, 0.0)),
+            width: side(x, sides[0]),
+            height: side(y, sides[1]),
+            ..Self::default()
+        }
+    }
+
     /// Takes note of a comment.
     pub(super) fn note(&mut self, line: usize, comment: &str) -> Result<(), Refusal> {
         let comment = comment.trim_start_matches('#').trim();
@@ -167,10 +193,10 @@ impl Raw {
 }
 
 /// Names of units, for messages.
-const UNITS: &str = "m, cm, mm, µm, nm, pm, Å";
+pub(super) const UNITS: &str = "m, cm, mm, µm, nm, pm, Å";
 
 /// A unit of length in m.
-fn unit(name: &str) -> Option<f64> {
+pub(super) fn unit(name: &str) -> Option<f64> {
     Some(match name {
         "m" | "meter" | "metre" => 1.0,
         "cm" => 1e-2,
