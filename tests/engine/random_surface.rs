@@ -18,6 +18,8 @@ fn spectrum(autocorrelation: Autocorrelation, correlation_m: [f64; 2]) -> Random
         cutoff_short_m: 0.5 * L,
         cutoff_long_m: f64::INFINITY,
         period_m: correlation_m.map(|l| 32.0 * l),
+        skewness: 0.0,
+        kurtosis: 3.0,
     }
 }
 
@@ -274,5 +276,27 @@ fn what_does_not_fit_is_refused_by_name() {
     ] {
         let error = scene(settings).expect_err("it does not fit");
         assert!(error.contains(words), "{settings:?}: {error}");
+    }
+}
+
+/// Skewed and peaked heights, with the spectrum of the normal ones: found moments over ten seeds, and the correlation as before.
+#[test]
+fn heights_may_be_skewed_and_peaked() {
+    for (skewness, kurtosis) in [(-1.0, 4.5), (0.8, 4.0), (0.0, 5.0), (0.0, 2.2)] {
+        let mut shaped = spectrum(Autocorrelation::Exponential, [L, L]);
+        (shaped.skewness, shaped.kurtosis) = (skewness, kurtosis);
+        let normal = spectrum(Autocorrelation::Exponential, [L, L]);
+        for seed in 1..4 {
+            let map = made(shaped, seed);
+            let [found_skewness, found_kurtosis] = map.moments();
+            println!(
+                "Ssk {found_skewness:.3} for {skewness}, Sku {found_kurtosis:.3} for {kurtosis}"
+            );
+            assert!((found_skewness - skewness).abs() < 0.1);
+            assert!((found_kurtosis - kurtosis).abs() < 0.3);
+            let [own, other] = [shaped, normal]
+                .map(|spectrum| Heights::of(&made(spectrum, seed)).autocorrelation([8, 0]));
+            assert!((own - other).abs() < 1e-5, "{own} {other}");
+        }
     }
 }

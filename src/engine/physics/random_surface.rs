@@ -18,14 +18,17 @@
 //! Heights are scaled to Sq = `rq_m` exactly; their spectrum is a sample, as that of a patch of a real surface is. A mode's
 //! number does not depend on which other modes there are: a shorter cut-off adds waves to the same surface. Spectra: Nayak
 //! (1971), J. Lubr. Technol. 93, 398-407; Persson et al. (2005), J. Phys.: Condens. Matter 17, R1-R62 (self-affine).
+//! Heights of another skewness and kurtosis: waves keep their height and are turned until the heights have the distribution of
+//! [`HeightDistribution`] as nearly as the waves allow (Schreiber and Schmitz 1996, Phys. Rev. Lett. 77, 635-638).
 
 use std::f64::consts::{PI, TAU};
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore as _, SeedableRng as _};
-use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
+use rustfft::{FftDirection, FftPlanner};
 
+use super::height_distribution::HeightDistribution;
 use super::height_map::HeightMap;
 
 crate::closed_set! {
@@ -59,6 +62,10 @@ pub struct RandomSpectrum {
     pub cutoff_long_m: f64,
     /// P_x, P_y, m.
     pub period_m: [f64; 2],
+    /// Ssk; 0: normal.
+    pub skewness: f64,
+    /// Sku; 3: normal.
+    pub kurtosis: f64,
 }
 
 /// Pixels of the shortest wave: cubic convolution then leaves less than a hundredth of Rq (a test measures it).
@@ -114,15 +121,6 @@ impl RandomSpectrum {
         power.sqrt()
     }
 
-    /// Two standard normal numbers of a mode (Box and Muller).
-    fn normals(&self, random: &mut ChaCha8Rng, m: i64, n: i64) -> [f64; 2] {
-        let place = (n as u64 * 2 * MOST_MODES) | (m + MOST_MODES as i64) as u64;
-        random.set_word_pos(4 * u128::from(place));
-        let mut uniform = || ((random.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64;
-        let (radius, angle) = ((-2.0 * uniform().ln()).sqrt(), TAU * uniform());
-        [radius * angle.cos(), radius * angle.sin()]
-    }
-
     /// The modes that the surface has: m, n and their complex amplitude, over an arbitrary constant; half of the plane,
     /// the other half is its mirror image.
     fn waves(&self) -> impl Iterator<Item = ([i64; 2], Complex<f64>)> + '_ {
@@ -138,34 +136,122 @@ impl RandomSpectrum {
             if amplitude == 0.0 {
                 return None;
             }
-            let [one, two] = self.normals(&mut random, m, n);
+            let [one, two] = normals(&mut random, m, n);
             Some(([m, n], Complex::new(amplitude * one, amplitude * two)))
         })
     }
 
-    /// The surface on its pixels; `None`: no wave lies between the cut-offs.
+    /// The surface on its pixels; `None`: no wave lies between the cut-offs, or no heights have that skewness and kurtosis.
     pub fn make(&self) -> Option<HeightMap> {
         let [nx, ny] = self.pixels();
-        let mut spectrum = vec![Complex::default(); nx * ny];
-        for ([m, n], wave) in self.waves() {
-            spectrum[n as usize * nx + m.rem_euclid(nx as i64) as usize] = wave;
-        }
-        let mut planner = FftPlanner::new();
-        let (along, across) = (planner.plan_fft_inverse(nx), planner.plan_fft_inverse(ny));
-        for row in spectrum.chunks_exact_mut(nx) {
-            along.process(row);
-        }
-        let mut heights = vec![0.0; nx * ny];
-        let mut column = vec![Complex::default(); ny];
-        for i in 0..nx {
-            for (j, value) in column.iter_mut().enumerate() {
-                *value = spectrum[j * nx + i];
-            }
-            across.process(&mut column);
-            for (j, value) in column.iter().enumerate() {
-                heights[j * nx + i] = value.re;
+        let mut planes = Planes::new(nx, ny);
+        let mut waves: Vec<_> = self.waves().collect();
+        let mut heights = planes.heights(&waves);
+        if self.is_shaped() {
+            let sorted = HeightDistribution::new(self.skewness, self.kurtosis)?.quantiles(nx * ny);
+            for _ in 0..TURNS {
+                put_in_order(&mut heights, &sorted);
+                planes.turn(&heights, &mut waves);
+                heights = planes.heights(&waves);
             }
         }
         HeightMap::made(nx, &heights)
     }
+
+    /// Whether its heights are other than normal.
+    pub fn is_shaped(&self) -> bool {
+        self.skewness != 0.0 || self.kurtosis != 3.0
+    }
+}
+
+/// Turns between the heights asked for and the spectrum asked for. The spectrum has the last word, so that the cut-off holds; the
+/// moments that are left are printed.
+const TURNS: usize = 20;
+
+/// Gives the heights the values of `sorted`, the order among them kept.
+fn put_in_order(heights: &mut [f64], sorted: &[f64]) {
+    let mut order: Vec<usize> = (0..heights.len()).collect();
+    order.sort_by(|&a, &b| heights[a].total_cmp(&heights[b]));
+    for (place, value) in order.into_iter().zip(sorted) {
+        heights[place] = *value;
+    }
+}
+
+/// Waves m, n and their complex amplitudes.
+type Waves = [([i64; 2], Complex<f64>)];
+
+/// Transforms between waves and heights on pixels.
+struct Planes {
+    nx: usize,
+    ny: usize,
+    plan: FftPlanner<f64>,
+    values: Vec<Complex<f64>>,
+}
+
+impl Planes {
+    fn new(nx: usize, ny: usize) -> Self {
+        Self {
+            nx,
+            ny,
+            plan: FftPlanner::new(),
+            values: vec![Complex::default(); nx * ny],
+        }
+    }
+
+    fn place(&self, [m, n]: [i64; 2]) -> usize {
+        n as usize * self.nx + m.rem_euclid(self.nx as i64) as usize
+    }
+
+    fn transform(&mut self, direction: FftDirection) {
+        let (nx, ny) = (self.nx, self.ny);
+        let along = self.plan.plan_fft(nx, direction);
+        for row in self.values.chunks_exact_mut(nx) {
+            along.process(row);
+        }
+        let across = self.plan.plan_fft(ny, direction);
+        let mut column = vec![Complex::default(); ny];
+        for i in 0..nx {
+            for (j, value) in column.iter_mut().enumerate() {
+                *value = self.values[j * nx + i];
+            }
+            across.process(&mut column);
+            for (j, value) in column.iter().enumerate() {
+                self.values[j * nx + i] = *value;
+            }
+        }
+    }
+
+    /// Re Σ of the waves.
+    fn heights(&mut self, waves: &Waves) -> Vec<f64> {
+        self.values.fill(Complex::default());
+        for &(wave, amplitude) in waves {
+            let place = self.place(wave);
+            self.values[place] = amplitude;
+        }
+        self.transform(FftDirection::Inverse);
+        self.values.iter().map(|value| value.re).collect()
+    }
+
+    /// Turns each wave to its phase in `heights`; how high it is stays.
+    fn turn(&mut self, heights: &[f64], waves: &mut Waves) {
+        for (value, &height) in self.values.iter_mut().zip(heights) {
+            *value = Complex::new(height, 0.0);
+        }
+        self.transform(FftDirection::Forward);
+        for (wave, amplitude) in waves {
+            let found = self.values[self.place(*wave)];
+            if found.norm() > 0.0 {
+                *amplitude = found / found.norm() * amplitude.norm();
+            }
+        }
+    }
+}
+
+/// Two standard normal numbers of a mode (Box and Muller).
+fn normals(random: &mut ChaCha8Rng, m: i64, n: i64) -> [f64; 2] {
+    let place = (n as u64 * 2 * MOST_MODES) | (m + MOST_MODES as i64) as u64;
+    random.set_word_pos(4 * u128::from(place));
+    let mut uniform = || ((random.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64;
+    let (radius, angle) = ((-2.0 * uniform().ln()).sqrt(), TAU * uniform());
+    [radius * angle.cos(), radius * angle.sin()]
 }

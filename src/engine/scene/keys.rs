@@ -49,6 +49,8 @@ const SURFACE: &[Key] = &[
     key("hurst", "", Number(0.0, 1.0), Optional("0.8"), "Hurst exponent H of self_affine: power by wavenumber q^-2(1+H), of ridges q^-(1+2H)"),
     key("cutoff_short_m", "m", Number(1e-7, 1.0), Optional("the shorter correlation length"), "shortest wave of the surface, at least 4 nodes; lives hang on it"),
     key("cutoff_long_m", "m", Number(1e-7, 1.0), Optional("the period"), "longest wave of the surface"),
+    key("skewness", "", Number(-3.0, 3.0), Optional("0"), "Ssk of the heights; below 0: plateaus and valleys, as honed or worn surfaces have; the waves allow it only nearly, what came out is printed"),
+    key("kurtosis", "", Number(1.8, 30.0), Optional("3"), "Sku of the heights, at least 1.774 + 1.641 Ssk^2"),
     key("period_x_m", "m", Number(1e-6, 10.0), Optional("64 correlation lengths, at least 8 of cutoff_long_m"), "way along x after which the surface comes again"),
     key("period_y_m", "m", Number(1e-6, 10.0), Optional("likewise"), "the same along y"),
     key("amplitude_m", "m", Number(0.0, 1e-4), Required, "sinusoid: A in A cos(2 pi x'/Wx + phase) cos(2 pi y'/Wy), peak to valley is 2 A; height map: greatest departure from its level; omitted: as in the file"),
@@ -67,9 +69,9 @@ const OF_SINUSOID: [&str; 5] = [
     "phase_deg",
 ];
 #[rustfmt::skip]
-const OF_RANDOM: [&str; 10] = [
+const OF_RANDOM: [&str; 12] = [
     "seed", "rq_m", "autocorrelation", "correlation_x_m", "correlation_y_m", "hurst", "cutoff_short_m", "cutoff_long_m",
-    "period_x_m", "period_y_m",
+    "skewness", "kurtosis", "period_x_m", "period_y_m",
 ];
 #[rustfmt::skip]
 const OF_MAP: [&str; 8] = ["file", "digest", "pixel_m", "edge", "level", "outliers", "unit_m", "start_x_m"];

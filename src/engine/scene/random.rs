@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::error::SceneError;
 use super::keys::{joined, short};
 use crate::math::number::{length, sig};
+use crate::physics::height_distribution::{HeightDistribution, least_kurtosis};
 use crate::physics::height_map::HeightMap;
 use crate::physics::random_surface::{Autocorrelation, RandomSpectrum};
 
@@ -43,6 +44,12 @@ pub struct RandomSurface {
     /// The same along y.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub period_y_m: Option<f64>,
+    /// Ssk; `None`: 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub skewness: Option<f64>,
+    /// Sku; `None`: 3.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kurtosis: Option<f64>,
     /// The heights, once made.
     #[serde(skip)]
     made: Option<Arc<HeightMap>>,
@@ -55,6 +62,8 @@ const LENGTHS: f64 = 64.0;
 const LONGEST_WAVES: f64 = 8.0;
 /// Most pixels of a made surface.
 const MOST_PIXELS: usize = 1 << 22;
+/// Same of one whose heights are not normal, which takes forty transforms and sorts.
+const MOST_SHAPED_PIXELS: usize = 1 << 20;
 
 impl RandomSurface {
     /// L_x and L_y, m. A power law has none, but may have a lay: what counts is their ratio.
@@ -106,6 +115,8 @@ impl RandomSurface {
             cutoff_short_m: self.cutoff_short_m(),
             cutoff_long_m: self.cutoff_long_m.unwrap_or(f64::INFINITY),
             period_m: self.period_m(),
+            skewness: self.skewness.unwrap_or(0.0),
+            kurtosis: self.kurtosis.unwrap_or(3.0),
         }
     }
 
@@ -126,7 +137,12 @@ impl RandomSurface {
         self.check(table)?;
         let spectrum = self.spectrum(seed);
         let [nx, ny] = spectrum.pixels();
-        if nx.saturating_mul(ny) > MOST_PIXELS {
+        let most = if spectrum.is_shaped() {
+            MOST_SHAPED_PIXELS
+        } else {
+            MOST_PIXELS
+        };
+        if nx.saturating_mul(ny) > most {
             let [x_m, y_m] = self.period_m().map(short);
             return Err(SceneError::value(
                 joined(table, "cutoff_short_m"),
@@ -135,7 +151,7 @@ impl RandomSurface {
                     short(self.cutoff_short_m())
                 ),
                 format!(
-                    "at most {MOST_PIXELS} pixels: a longer cutoff_short_m, or a shorter period_x_m or period_y_m"
+                    "at most {most} pixels: a longer cutoff_short_m, or a shorter period_x_m or period_y_m"
                 ),
             ));
         }
@@ -196,6 +212,18 @@ impl RandomSurface {
                 joined(table, "hurst"),
                 "a setting",
                 "only with autocorrelation = \"self_affine\"",
+            ));
+        }
+        let (skewness, kurtosis) = (self.skewness.unwrap_or(0.0), self.kurtosis.unwrap_or(3.0));
+        if HeightDistribution::new(skewness, kurtosis).is_none() {
+            return Err(SceneError::value(
+                joined(table, "kurtosis"),
+                short(kurtosis),
+                format!(
+                    "at least {} with a skewness of {}",
+                    sig(least_kurtosis(skewness), 3),
+                    short(skewness)
+                ),
             ));
         }
         let (short_m, long_m) = (self.cutoff_short_m(), self.cutoff_long_m);
