@@ -189,6 +189,7 @@ fn line(code: CautionCode) -> Option<usize> {
         | CautionCode::ShallowStress
         | CautionCode::LateEvent
         | CautionCode::MapNotSeen
+        | CautionCode::OneSample
         | CautionCode::CrestsNotFelt
         | CautionCode::OilLaw
         | CautionCode::NoReference

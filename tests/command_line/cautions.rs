@@ -18,7 +18,7 @@ use rerun::TextDocument;
 use rerun::external::re_log_types::LogMsg;
 
 /// Codes, each with a preset and the keys that plant it.
-const PLANTED: [(&str, &str, &[&str]); 25] = [
+const PLANTED: [(&str, &str, &[&str]); 26] = [
     (
         "not_converged",
         QUICK,
@@ -59,6 +59,17 @@ const PLANTED: [(&str, &str, &[&str]); 25] = [
     ),
     ("shallow_stress", QUICK, &["stress.depth_max_a=1.2"]),
     ("map_not_seen", MAP, &[]),
+    (
+        "one_sample",
+        QUICK,
+        &[
+            "body_1.surface.kind=random",
+            "body_1.surface.rq_m=1e-7",
+            "body_1.surface.correlation_x_m=2e-4",
+            "body_1.surface.period_x_m=4e-3",
+            "body_1.surface.period_y_m=4e-3",
+        ],
+    ),
     ("late_event", LATE, &[]),
     ("standing_body", QUICK, &["motion.slide_roll=2"]),
     (

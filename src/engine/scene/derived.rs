@@ -128,10 +128,7 @@ impl Scene {
         let made = self
             .surfaces()
             .into_iter()
-            .filter_map(|surface| match surface {
-                Surface::Random(random) => Some(random.cutoff_short_m()),
-                Surface::Smooth {} | Surface::Sinusoid { .. } | Surface::HeightMap { .. } => None,
-            });
+            .filter_map(Surface::cutoff_short_m);
         made.reduce(f64::min)
     }
 
@@ -170,6 +167,14 @@ impl Surface {
             Self::Smooth {} | Self::Sinusoid { .. } => None,
             Self::Random(random) => random.relief(),
             Self::HeightMap { pixel_m, map, .. } => Some((map.as_ref()?, [side_m(*pixel_m); 2])),
+        }
+    }
+
+    /// Its shortest wave, m, if it is made.
+    pub fn cutoff_short_m(&self) -> Option<f64> {
+        match self {
+            Self::Random(random) => Some(random.cutoff_short_m()),
+            Self::Smooth {} | Self::Sinusoid { .. } | Self::HeightMap { .. } => None,
         }
     }
 

@@ -11,6 +11,7 @@
 //!                what the plan warns of                                         at the knobs' present values
 //! late_event     an event of the scene after the end of its run: of a run, not of a step
 //! map_not_seen   a height map of which a part has not passed yet
+//! one_sample     a made surface: its seed and its cut-off move the life
 //! oil_law        mean shear stress of the film > Eyring's, of oil that flows        likewise
 //! crests_not_felt  crests that press less than a thousandth of Hertz's pressure, or of which material points count less than
 //!                  a tenth, of a count above 1
@@ -25,7 +26,7 @@ use serde::{Deserialize, Serialize};
 
 use super::grounds::ReferenceLife;
 use super::{Frame, Grounds, LifeEstimate, Metrics, Rhythm};
-use crate::math::number::{fixed, sig};
+use crate::math::number::{fixed, length, sig};
 use crate::physics::felt::{FELT, felt_where_counted};
 use crate::physics::strength::Strength;
 use crate::plan::{EDGES_WORTH_A_WORD, KnobsAt, MOLECULE_M, Plan, Warning};
@@ -69,6 +70,8 @@ pub enum CautionCode {
     LateEvent,
     /// A part of a height map has not passed yet.
     MapNotSeen,
+    /// A made surface is one sample of many: its seed and its cut-off move the life.
+    OneSample,
     /// A body stands (|S| = 2): lives are in the other's cycles, or the other's alone.
     StandingBody,
     /// The formula counts crests that the contact does not feel.
@@ -146,6 +149,7 @@ pub(super) fn list(m: &Metrics, grounds: &Grounds) -> Vec<Caution> {
     for text in map_not_seen(grounds) {
         say(CautionCode::MapNotSeen, Some(text));
     }
+    say(CautionCode::OneSample, one_sample(m, grounds));
     say(CautionCode::StandingBody, standing(m, grounds));
     say(CautionCode::CrestsNotFelt, crests_not_felt(m, grounds));
     say(CautionCode::NoReference, no_reference(grounds));
@@ -325,6 +329,24 @@ fn map_not_seen(grounds: &Grounds) -> Vec<String> {
     };
     let maps = grounds.map_seen_m.iter().enumerate();
     maps.filter_map(of).collect()
+}
+
+fn one_sample(m: &Metrics, grounds: &Grounds) -> Option<String> {
+    let made = grounds
+        .cutoffs_m
+        .into_iter()
+        .zip([m.amplitude_1_m, m.amplitude_2_m]);
+    let rough = made.filter(|(_, amplitude_m)| *amplitude_m != 0.0);
+    let cutoff_m = rough
+        .filter_map(|(cutoff_m, _)| cutoff_m)
+        .reduce(f64::min)?;
+    grounds.has_life.then(|| {
+        format!(
+            "the life is that of one sample of made roughness, without waves below {}: another seed has another, a shorter cut-off \
+             (surface.cutoff_short_m) most often a shorter one; a sweep over body_1.surface.seed says how much is chance",
+            length(cutoff_m)
+        )
+    })
 }
 
 impl CautionCode {
@@ -638,9 +660,13 @@ mod tests {
     fn what_the_plan_warns_of_is_a_caution_at_the_knobs_of_now() {
         use CautionCode::{
             CoarseConvectedWave, CoarseCounting, CoarseWave, CrestsAtEdge, LongStep, MapNotSeen,
-            ShallowStress,
+            OneSample, ShallowStress,
         };
-        let table: [(CautionCode, &str, Spoil); 7] = [
+        let table: [(CautionCode, &str, Spoil); 8] = [
+            (OneSample, "without waves below 60.0 µm", |m, g| {
+                m.amplitude_1_m = 1e-7;
+                g.cutoffs_m = [Some(60e-6), Some(20e-6)];
+            }),
             (LongStep, "time.step_nodes = 2", |m, g| {
                 m.amplitude_1_m = 1e-7;
                 g.resolution = Some(coarse([16.0; 2], 2.0));

@@ -63,6 +63,8 @@ pub struct Grounds {
     pub yielded_last_share: Option<f64>,
     /// The narrower half-width of the contact at the load of now, m.
     pub half_width_m: f64,
+    /// Shortest waves of the made surfaces of body 1 and 2, m; `None`: it is not made.
+    pub cutoffs_m: [Option<f64>; 2],
     /// What is doubtful of the maps of body 1 and 2.
     pub maps: [[Option<Doubt>; 2]; 2],
 }

@@ -270,6 +270,7 @@ fn grounds_of(scene: &Scene, decided: &Plan) -> Grounds {
             _ => strength::by_young(body.young_pa),
         }),
         hardness_pa: scene.hardness_pa(),
+        cutoffs_m: scene.surfaces().map(Surface::cutoff_short_m),
         maps: scene.surfaces().map(Surface::map_doubts),
         has_life: scene.life.is_some(),
         by_damage: (scene.life.as_ref()).is_some_and(|life| life.cycles == CycleBasis::Damage),

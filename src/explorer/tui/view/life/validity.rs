@@ -73,6 +73,7 @@ fn name(caution: &Caution) -> &'static str {
         CautionCode::ShallowStress => "shallow stress",
         CautionCode::LateEvent => "late event",
         CautionCode::MapNotSeen => "map not seen",
+        CautionCode::OneSample => "one sample",
         CautionCode::StandingBody => "a body stands",
         CautionCode::CrestsNotFelt => "crests not felt",
         CautionCode::OilLaw => "oil's law",
