@@ -2,6 +2,7 @@
 
 mod recordings;
 mod study;
+mod surface;
 mod sweep_texts;
 
 use std::borrow::Cow;
@@ -16,6 +17,7 @@ use clap::{Args, Parser, Subcommand};
 pub(crate) use self::recordings::{BesideValues, CompareArgs, CompareBy, ExportArgs};
 
 pub(crate) use self::study::{StudyArgs, StudyKind};
+pub(crate) use self::surface::SurfaceArgs;
 use self::sweep_texts::{SWEEP_ABOUT, SWEEP_EXAMPLES};
 
 const ABOUT: &str =
@@ -105,6 +107,14 @@ Examples:
         /// Preset to print
         name: Option<String>,
     },
+    /// Say what a measured or made surface is: roughness parameters, what a cut-off keeps; write a scene with it
+    #[command(after_long_help = "\
+Examples:
+  asperity surface flank.x3p                               best plane taken off, no other filter
+  asperity surface scan.csv --pixel-m 1e-6 --unit-m 1e-9   where the file says neither
+  asperity surface flank.sur --level quadratic --scene flank.toml
+  asperity surface random_rollers                          the surfaces of a scene")]
+    Surface(SurfaceArgs),
     /// Measure accuracy, cost and limits of the program itself
     #[command(after_long_help = "\
 Each study prints its table and, with --out, writes it as Markdown and CSV, with plots as SVG where there are any.

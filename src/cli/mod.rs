@@ -20,6 +20,7 @@ mod scenes;
 mod shown;
 mod signals;
 mod study;
+mod surface;
 mod sweep;
 mod view;
 
@@ -59,6 +60,7 @@ fn dispatch(command: CliCommand, engine: Engine) -> Result<u8, Failure> {
         CliCommand::Explore { run, lesson } => explore(&run, lesson.as_deref(), engine),
         CliCommand::Check(args) => scenes::check(&args),
         CliCommand::Scenes { name } => scenes::scenes(name.as_deref()),
+        CliCommand::Surface(args) => surface::surface(&args),
         CliCommand::Study(args) => study::study(&args),
         CliCommand::Sweep(args) => sweep::sweep(&args),
         #[cfg(feature = "rerun")]

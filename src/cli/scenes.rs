@@ -87,9 +87,9 @@ pub(crate) fn scenes(name: Option<&str>) -> Result<u8, Failure> {
         print(&Scene::load(name)?.to_toml())?;
         return Ok(0);
     }
-    let width = presets::all().iter().map(|preset| preset.name.len()).max();
+    let width = presets::listed().map(|preset| preset.name.len()).max();
     let mut text = String::new();
-    for preset in presets::all() {
+    for preset in presets::listed() {
         let scene = Scene::load(preset.name)?;
         let line = format!(
             "{:width$}  {}\n",

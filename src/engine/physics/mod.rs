@@ -1,5 +1,6 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
 
+pub mod areal;
 pub mod cycles;
 pub mod estimate;
 pub mod eyring;
@@ -16,6 +17,7 @@ pub mod height_map;
 pub mod hertz;
 pub mod invariants;
 pub mod iso281;
+pub mod kept;
 pub mod levelling;
 pub mod life_models;
 pub mod line;

@@ -170,6 +170,19 @@ impl Surface {
         }
     }
 
+    /// Its heights made or read, m, row after row: pixels of a row, heights, sides of a pixel along x and y, m.
+    pub fn relief_heights_m(&self) -> Option<(usize, Vec<f64>, [f64; 2])> {
+        let (map, sides_m) = self.relief()?;
+        let (nx, ny) = (map.nx(), map.ny());
+        let mut row = vec![0.0_f32; nx];
+        let mut heights_m = Vec::with_capacity(nx * ny);
+        for j in 0..ny {
+            map.row_into(j as f64 - 0.5 * (ny - 1) as f64, &mut row);
+            heights_m.extend(row.iter().map(|&z| self.amplitude_m() * f64::from(z)));
+        }
+        Some((nx, heights_m, sides_m))
+    }
+
     /// Its shortest wave, m, if it is made.
     pub fn cutoff_short_m(&self) -> Option<f64> {
         match self {

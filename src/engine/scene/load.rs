@@ -323,7 +323,7 @@ fn read(file: &Path) -> Result<String, SceneError> {
         if error.kind() == std::io::ErrorKind::NotFound && !looks_like_a_path {
             return SceneError::UnknownScene {
                 name: super::error::shortened(path),
-                nearest: nearest(path, presets::all().iter().map(|preset| preset.name))
+                nearest: nearest(path, presets::listed().map(|preset| preset.name))
                     .map(str::to_owned),
                 presets: presets::names(),
             };

@@ -337,7 +337,7 @@ mod tests {
     /// What is called usual is: of the scenes that come with the program no key is far from it.
     #[test]
     fn the_presets_are_usual() {
-        for preset in presets::all() {
+        for preset in presets::listed() {
             let scene = Scene::load(preset.name).unwrap();
             assert_eq!(unusual(&scene), None, "{}", preset.name);
         }

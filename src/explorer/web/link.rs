@@ -61,7 +61,7 @@ impl PageLink {
             }
         }
         if presets::find(&name).is_none() {
-            let names: Vec<&str> = presets::all().iter().map(|preset| preset.name).collect();
+            let names: Vec<&str> = presets::listed().map(|preset| preset.name).collect();
             let names = names.join(", ");
             return Err(format!("{} is not a scene: {names}", shown(&name)));
         }

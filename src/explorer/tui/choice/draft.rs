@@ -154,7 +154,8 @@ impl Draft {
     pub fn take_digit(&mut self, place: usize) {
         if !self.chosen().keys(&self.scene).is_empty() {
             self.typed = Some((place + 1).to_string());
-        } else if let (Choice::Preset, Some(preset)) = (self.chosen(), presets::all().get(place)) {
+        } else if let (Choice::Preset, Some(preset)) = (self.chosen(), presets::listed().nth(place))
+        {
             self.keep();
             self.take(preset.name);
             self.judge();
@@ -178,7 +179,7 @@ impl Draft {
     }
 
     pub(super) fn take_preset(&mut self, by: i32) {
-        let all = presets::all();
+        let all: Vec<_> = presets::listed().collect();
         let now = self
             .preset
             .and_then(|name| all.iter().position(|preset| preset.name == name));
