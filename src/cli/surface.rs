@@ -39,7 +39,7 @@ pub(crate) fn surface(args: &SurfaceArgs) -> Result<u8, Failure> {
 /// The default scene with the file on body 1, and a smooth body 2.
 fn with_map(args: &SurfaceArgs) -> Result<Scene, Failure> {
     let mut scene = Scene::load(presets::DEFAULT)?;
-    scene.title = "A measured surface on a smooth one".to_owned();
+    "A measured surface on a smooth one".clone_into(&mut scene.title);
     scene.about = format!(
         "The operating point of {} with a measured surface on body 1: set your own.",
         presets::DEFAULT

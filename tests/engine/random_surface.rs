@@ -210,14 +210,13 @@ fn a_scene_keeps_its_surface() {
         .map(|key| format!("body_2.surface.{key}"));
     let of = |seed: &str| {
         let settings = [&both[0], &both[1], &both[2], seed];
-        let seeds = scene(&settings)
+        scene(&settings)
             .expect("it fits")
             .surfaces()
             .map(|surface| match surface {
                 Surface::Random(random) => random.seed,
                 _ => None,
-            });
-        seeds
+            })
     };
     assert_eq!(of("body_1.surface.seed=7"), [Some(7), Some(1_000_007)]);
     let mut turned = made.clone();

@@ -3,7 +3,7 @@
 use super::{Choice, stepped, surface, wavelength};
 use crate::tui::units::Units;
 use asperity_engine::math::number::{GPA, Unit, trimmed};
-use asperity_engine::scene::{ContactKind, Scene, Surface};
+use asperity_engine::scene::{ContactKind, Lubricant, Scene, Surface};
 
 /// Step of the slide-to-roll ratio.
 const S_STEP: f64 = 0.05;
@@ -88,10 +88,10 @@ impl Choice {
             Self::HertzPressure => Some(scene.hertz().p_max_pa),
             Self::Speed => Some(scene.motion.entrainment_m_s),
             Self::SlideRoll => Some(scene.motion.slide_roll),
-            Self::Viscosity => scene.lubricant.as_ref().map(|oil| oil.viscosity_pa_s()),
+            Self::Viscosity => scene.lubricant.as_ref().map(Lubricant::viscosity_pa_s),
             Self::PressureViscosity => {
                 let oil = scene.lubricant.as_ref();
-                oil.map(|oil| oil.pressure_viscosity_per_pa())
+                oil.map(Lubricant::pressure_viscosity_per_pa)
             }
             Self::Amplitude(of) => Some(surface(scene, of).amplitude_m()).filter(|a| *a > 0.0),
             Self::Wavelength(of) => wavelength(surface(scene, of)),
