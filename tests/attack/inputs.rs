@@ -144,8 +144,7 @@ fn hostile_toml(random: &mut Random, seeds: &[String]) -> Vec<u8> {
 
 impl Arsenal {
     pub(crate) fn new() -> Self {
-        let mut scenes: Vec<String> = presets::all()
-            .iter()
+        let mut scenes: Vec<String> = presets::listed()
             .map(|preset| Scene::load(preset.name).unwrap().to_toml())
             .collect();
         scenes.extend(corpus(".scene.toml"));

@@ -21,6 +21,7 @@ macro_rules! preset {
 const PRESETS: &[SweepPreset] = &[
     preset!("slide_roll"),
     preset!("random_rollers"),
+    preset!("two_rough_discs"),
     preset!("life_map"),
     preset!("stribeck"),
     preset!("lambda"),
