@@ -1,5 +1,7 @@
 //! `asperity surface`: what a measured or made surface is, and a scene with it.
 
+mod pictures;
+
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -22,10 +24,12 @@ pub(crate) fn surface(args: &SurfaceArgs) -> Result<u8, Failure> {
         for (body, surface) in (1..).zip(scene.surfaces()) {
             let _ = writeln!(text, "Body {body}");
             tell(&mut text, surface);
+            draw(args, &mut text, &format!("body_{body}_"), surface)?;
         }
     } else {
         let scene = with_map(args)?;
         tell(&mut text, &scene.body_1.surface);
+        draw(args, &mut text, "", &scene.body_1.surface)?;
         if let Some(path) = &args.scene {
             scene.validate()?;
             write_new(path, &scene.to_toml())?;
@@ -34,6 +38,21 @@ pub(crate) fn surface(args: &SurfaceArgs) -> Result<u8, Failure> {
     }
     print(&text)?;
     Ok(0)
+}
+
+/// Draws a surface where pictures are asked for.
+fn draw(
+    args: &SurfaceArgs,
+    text: &mut String,
+    prefix: &str,
+    surface: &Surface,
+) -> Result<(), Failure> {
+    if let (Some(folder), Some(heights)) = (&args.pictures, surface.relief_heights_m()) {
+        for name in pictures::draw(folder, prefix, &heights)? {
+            let _ = writeln!(text, "picture    {name}");
+        }
+    }
+    Ok(())
 }
 
 /// The default scene with the file on body 1, and a smooth body 2.

@@ -24,6 +24,9 @@ pub(crate) struct SurfaceArgs {
     /// What becomes of pixels that stand out
     #[arg(long, value_name = "WHAT", default_value = MapOutliers::Keep.key(), value_parser = PossibleValuesParser::new(MapOutliers::KEYS))]
     outliers: String,
+    /// Folder for pictures of the heights and of their spectrum along x
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) pictures: Option<PathBuf>,
     /// Scene to write with the surface on body 1; the file must not be there yet
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) scene: Option<PathBuf>,

@@ -8,11 +8,14 @@
 //! comes with the program (scenes of `evidence/`).
 
 mod header;
+#[cfg(not(target_arch = "wasm32"))]
 mod missing;
 mod npy;
 mod raster;
+#[cfg(not(target_arch = "wasm32"))]
 mod sur;
 mod text;
+#[cfg(not(target_arch = "wasm32"))]
 mod x3p;
 
 use std::hash::Hasher as _;
@@ -257,7 +260,9 @@ fn parsed(path: &Path) -> Result<Parsed, Refusal> {
             let (matrix, header) = text::parse(&bytes(path)?)?;
             Ok(Parsed::whole(matrix, header))
         }
+        #[cfg(not(target_arch = "wasm32"))]
         Some("x3p") => x3p::parse(&bytes(path)?),
+        #[cfg(not(target_arch = "wasm32"))]
         Some("sur") => sur::parse(&bytes(path)?),
         _ => Err(refusal(
             "unknown kind of file",

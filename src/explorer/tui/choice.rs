@@ -53,6 +53,7 @@ enum Lay {
     Transverse,
     Longitudinal,
     Isotropic,
+    Random,
     Other,
 }
 
@@ -121,6 +122,7 @@ impl Choice {
                 Lay::Transverse => "transverse",
                 Lay::Longitudinal => "longitudinal",
                 Lay::Isotropic => "isotropic",
+                Lay::Random => "random",
                 Lay::Other => "as in the scene",
             }
             .to_owned(),
@@ -151,17 +153,7 @@ impl Choice {
         match self {
             Self::Preset => draft.take_preset(by),
             Self::Lay(body) => turn_lay(scene, body, by),
-            Self::Wavelength(body) => {
-                if let Surface::Sinusoid {
-                    wavelength_x_m,
-                    wavelength_y_m,
-                    ..
-                } = surface_mut(scene, body)
-                {
-                    *wavelength_x_m = stepped(*wavelength_x_m, by);
-                    *wavelength_y_m = stepped(*wavelength_y_m, by);
-                }
-            }
+            Self::Wavelength(body) => turn_wave(self, draft, body, by),
             Self::Measure => {
                 if let Some(stress) = &mut scene.stress {
                     stress.measure = shifted(&StressMeasure::ALL, stress.measure, by);
@@ -182,6 +174,25 @@ impl Choice {
                 }
             }
         }
+    }
+}
+
+/// Longer or shorter waves, both of a product alike; of a made surface its shortest.
+fn turn_wave(choice: Choice, draft: &mut Draft, body: usize, by: i32) {
+    if let Surface::Sinusoid { .. } = surface(&draft.scene, body) {
+        draft.keep();
+        if let Surface::Sinusoid {
+            wavelength_x_m,
+            wavelength_y_m,
+            ..
+        } = surface_mut(&mut draft.scene, body)
+        {
+            *wavelength_x_m = stepped(*wavelength_x_m, by);
+            *wavelength_y_m = stepped(*wavelength_y_m, by);
+        }
+        draft.judge();
+    } else if let Some(value) = choice.number_turned(&draft.scene, by) {
+        draft.put(choice, value);
     }
 }
 
@@ -225,7 +236,8 @@ fn lay(surface: &Surface) -> Lay {
             (true, true) => Lay::Isotropic,
             (false, false) => Lay::Other,
         },
-        Surface::Sinusoid { .. } | Surface::Random(_) | Surface::HeightMap { .. } => Lay::Other,
+        Surface::Random(_) => Lay::Random,
+        Surface::Sinusoid { .. } | Surface::HeightMap { .. } => Lay::Other,
     }
 }
 
@@ -236,7 +248,8 @@ fn wavelength(surface: &Surface) -> Option<f64> {
             wavelength_y_m: y,
             ..
         } => Some(x.min(y)).filter(|wave| wave.is_finite()),
-        Surface::Smooth {} | Surface::Random(_) | Surface::HeightMap { .. } => None,
+        Surface::Random(_) => surface.cutoff_short_m(),
+        Surface::Smooth {} | Surface::HeightMap { .. } => None,
     }
 }
 
@@ -263,7 +276,7 @@ fn turn_lay(scene: &mut Scene, body: usize, by: i32) {
         phase_deg: 0.0,
     };
     *surface_mut(scene, body) = match next {
-        Lay::Smooth | Lay::Other => Surface::Smooth {},
+        Lay::Smooth | Lay::Random | Lay::Other => Surface::Smooth {},
         Lay::Transverse => wave(wave_m, f64::INFINITY),
         Lay::Longitudinal => wave(f64::INFINITY, wave_m),
         Lay::Isotropic => wave(wave_m, wave_m),
@@ -373,6 +386,24 @@ mod tests {
         draft.take("fzg_point_b");
         assert_eq!(Choice::Radius(1).keys(&draft.scene), Vec::<String>::new());
         assert_eq!(Choice::Load.keys(&draft.scene), ["load.force_n_per_m"]);
+    }
+
+    #[test]
+    fn a_turned_wave_can_be_taken_back() {
+        for (preset, wave_m) in [("demonstration", 2e-4), ("random_rollers", 6e-5)] {
+            let mut draft = draft();
+            draft.take(preset);
+            draft.row = 2;
+            let wave = |draft: &Draft| wavelength(surface(&draft.scene, 0)).unwrap_or_default();
+            assert_eq!(wave(&draft), wave_m);
+            draft.turn(1);
+            assert!(
+                wave(&draft) > 1.2 * wave_m && draft.verdict.is_ok(),
+                "{preset}"
+            );
+            draft.undo();
+            assert_eq!(wave(&draft), wave_m, "{preset}");
+        }
     }
 
     #[test]

@@ -85,12 +85,12 @@ impl Scatter {
 
 impl Sweep {
     /// Places of the axes that are seeds, and of the others.
-    fn seed_axes(&self) -> (Vec<usize>, Vec<usize>) {
+    pub(super) fn seed_axes(&self) -> (Vec<usize>, Vec<usize>) {
         (0..self.axes.len()).partition(|&axis| self.axes[axis].key.ends_with(".surface.seed"))
     }
 
     /// Cases that differ in their seeds alone, together; empty: no seed varies.
-    fn over_seeds(&self) -> Vec<Vec<usize>> {
+    pub(super) fn over_seeds(&self) -> Vec<Vec<usize>> {
         let (seeds, others) = self.seed_axes();
         let mut groups: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
         if seeds.is_empty() {

@@ -5,13 +5,15 @@
 //! | life, friction, minimum film, maximum pressure against the last axis (a path: the way) | it is made of numbers |
 //! | film against speed with the regression line | the entrainment speed varies |
 //! | Stribeck: friction against λ; lives by both counts against λ | speed, viscosity, load or roughness varies |
-//! | life map | two axes of numbers make a grid |
+//! | mean life over the seeds, with its ends | seeds vary, and one key of numbers |
+//! | life map | two axes of numbers make a grid, no seeds among them |
 //!
 //! Each is written as SVG and as PNG. Several axes make one curve for each combination of the others, at most eight.
 
 use super::axis::VariedKey;
 use super::error::SweepError;
 use super::folder::Folder;
+use super::over_seeds::Scatter;
 use super::reader::shown;
 use super::spec::{Combine, Sweep};
 use super::table::Rows;
@@ -176,6 +178,7 @@ fn figures(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
         let name = format!("{}_against_{}", plot.name, along.short);
         found.push((name, figure(sweep, rows, &along, &lines, plot)));
     }
+    found.extend(over_seeds(sweep, rows));
     found.extend(against_lambda(sweep, rows, &lines));
     found.retain(|(_, figure)| !figure.curves.is_empty());
     found
@@ -248,6 +251,46 @@ fn title(sweep: &Sweep) -> String {
     }
 }
 
+/// Mean life over the seeds and its ends, where seeds vary and one key of numbers beside them.
+fn over_seeds(sweep: &Sweep, rows: &Rows) -> Option<(String, Figure)> {
+    let (seeds, others) = sweep.seed_axes();
+    let ([_, ..], [other]) = (&seeds[..], &others[..]) else {
+        return None;
+    };
+    let axis = &sweep.axes[*other];
+    let (xs, (lives, is_common)) = (axis.numbers()?, drawn(sweep, rows, "life_relative"));
+    let of = |group: Vec<usize>| {
+        let x = xs[sweep.place(group[0])[*other]];
+        Scatter::of(group.iter().map(|&case| lives[case])).map(|found| (x, found))
+    };
+    let found: Vec<(f64, Scatter)> = sweep.over_seeds().into_iter().filter_map(of).collect();
+    let curve = |name: &str, mark: Mark, of: fn(&Scatter) -> f64| Curve {
+        name: name.to_owned(),
+        points: found.iter().map(|(x, found)| (*x, of(found))).collect(),
+        mark,
+    };
+    let figure = Figure {
+        title: title(sweep),
+        x: (axis.label(), scale_of(&xs)),
+        y: (
+            (if is_common { COMMON_LIFE } else { OWN_LIFE }).to_owned(),
+            Scale::Log,
+        ),
+        curves: vec![
+            curve(
+                "mean over the seeds (of the logarithms)",
+                Mark::Computed,
+                |s| s.mean,
+            ),
+            curve("least", Mark::Formula, |s| s.ends[0]),
+            curve("greatest", Mark::Formula, |s| s.ends[1]),
+        ],
+        levels: Vec::new(),
+        legend: Corner::UpperRight,
+    };
+    Some(("life_over_seeds".to_owned(), figure))
+}
+
 /// Friction and lives against λ, where something varies that moves λ.
 fn against_lambda(sweep: &Sweep, rows: &Rows, lines: &[Line]) -> Vec<(String, Figure)> {
     // Every knob but the sliding, and the oil.
@@ -284,7 +327,9 @@ fn life_map(sweep: &Sweep, rows: &Rows) -> Option<HeatMap> {
         return None;
     };
     let (xs, ys) = (x.numbers()?, y.numbers()?);
-    if sweep.combine != Combine::Grid || xs.len() < 2 || ys.len() < 2 {
+    // A seed is a name and no number.
+    let has_seeds = !sweep.seed_axes().0.is_empty();
+    if has_seeds || sweep.combine != Combine::Grid || xs.len() < 2 || ys.len() < 2 {
         return None;
     }
     let (lives, is_common) = drawn(sweep, rows, "life_relative");

@@ -171,7 +171,7 @@ impl Draft {
     }
 
     /// Keeps what is changed next.
-    fn keep(&mut self) {
+    pub(super) fn keep(&mut self) {
         if self.before.len() == MOST_KEPT {
             self.before.remove(0);
         }

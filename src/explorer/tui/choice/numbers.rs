@@ -71,7 +71,8 @@ impl Choice {
                 .filter(|(_, wave_m)| wave_m.is_finite())
                 .map(|(key, _)| of_surface(body, key))
                 .collect(),
-                Surface::Smooth {} | Surface::Random(_) | Surface::HeightMap { .. } => Vec::new(),
+                Surface::Random(_) => vec![of_surface(body, "cutoff_short_m")],
+                Surface::Smooth {} | Surface::HeightMap { .. } => Vec::new(),
             },
             Self::Preset | Self::Lay(_) | Self::Measure | Self::Model | Self::Nodes => Vec::new(),
         }
@@ -93,7 +94,11 @@ impl Choice {
                 let oil = scene.lubricant.as_ref();
                 oil.map(Lubricant::pressure_viscosity_per_pa)
             }
-            Self::Amplitude(of) => Some(surface(scene, of).amplitude_m()).filter(|a| *a > 0.0),
+            Self::Amplitude(of) => Some(match surface(scene, of) {
+                Surface::Random(random) => random.rq_m,
+                other => other.amplitude_m(),
+            })
+            .filter(|height_m| *height_m > 0.0),
             Self::Wavelength(of) => wavelength(surface(scene, of)),
             Self::Preset | Self::Lay(_) | Self::Measure | Self::Model | Self::Nodes => None,
         }
@@ -136,6 +141,7 @@ impl Choice {
         let follows = match self {
             Self::Load if given => "  from the Hertz pressure",
             Self::HertzPressure if !given => "  from the load",
+            Self::Amplitude(of) if surface(scene, of).cutoff_short_m().is_some() => "  Rq",
             _ => "",
         };
         format!("{}{follows}", shown.trim_end())
