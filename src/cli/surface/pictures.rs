@@ -69,7 +69,13 @@ fn spectrum(nx: usize, heights_m: &[f64], pixel_m: f64) -> Figure {
     });
     let length_m = nx as f64 * pixel_m;
     let n = nx as f64;
-    let points = power.iter().enumerate().skip(1);
+    let greatest = power.iter().skip(1).copied().fold(0.0, f64::max);
+    // Below that it is rounding.
+    let points = power
+        .iter()
+        .enumerate()
+        .skip(1)
+        .filter(|(_, p)| **p > 1e-9 * greatest);
     Figure {
         title: "Spectrum of the rows".to_owned(),
         x: ("wave along x, m".to_owned(), Scale::Log),
