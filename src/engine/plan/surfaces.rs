@@ -105,25 +105,21 @@ fn check_resolved(body: u8, surface: &Surface, spacing_m: [f64; 2]) -> Result<()
         let carries = |[k_x, k_y]: [f64; 2]| {
             (1.0 / (k_x * spacing_m[0])).min(1.0 / (k_y * spacing_m[1])) >= NODES_MIN
         };
-        if let Surface::Random(random) = surface {
-            let cutoff_m = random.cutoff_short_m();
-            return Err(PlanError::Refused {
-                key: format!("body_{body}.surface.cutoff_short_m"),
-                value: format!("{cutoff_m:e} m: the shortest significant wave is {wave_m:.3e} m"),
-                allowed: format!(
-                    "waves of at least 4 nodes (now {} on a spacing of {} by {} µm): a longer cut-off, or more grid.nodes",
-                    fixed(nodes, 1),
-                    fixed(spacing_m[0] * 1e6, 2),
-                    fixed(spacing_m[1] * 1e6, 2),
-                ),
-            });
-        }
-        let cure = surface
-            .blame(carries)
-            .unwrap_or_else(|| "smooth the map".to_owned());
+        let (key, value, cure) = match surface {
+            Surface::Random(random) => (
+                "cutoff_short_m",
+                format!("{:e} m: the", random.cutoff_short_m()),
+                "a longer cut-off".to_owned(),
+            ),
+            Surface::Smooth {} | Surface::Sinusoid { .. } | Surface::HeightMap { .. } => {
+                let cure = surface.blame(carries);
+                let cure = cure.unwrap_or_else(|| "smooth the map".to_owned());
+                ("file", "a map whose".to_owned(), cure)
+            }
+        };
         return Err(PlanError::Refused {
-            key: format!("body_{body}.surface.file"),
-            value: format!("a map whose shortest significant wave is {wave_m:.3e} m"),
+            key: format!("body_{body}.surface.{key}"),
+            value: format!("{value} shortest significant wave is {wave_m:.3e} m"),
             allowed: format!(
                 "waves of at least 4 nodes (now {} on a spacing of {} by {} µm): {cure}, or use more grid.nodes",
                 fixed(nodes, 1),
