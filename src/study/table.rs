@@ -9,25 +9,25 @@ use asperity_session::cells::csv_line;
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MarkdownTable {
     /// Names of the columns.
-    pub columns: Vec<&'static str>,
+    pub columns: Vec<String>,
     /// Rows, each as long as the columns.
     pub rows: Vec<Vec<String>>,
 }
 
 impl MarkdownTable {
     /// A table without rows.
-    pub fn new(columns: &[&'static str]) -> Self {
+    pub fn new(columns: &[&str]) -> Self {
         Self {
-            columns: columns.to_vec(),
+            columns: columns.iter().map(|&name| name.to_owned()).collect(),
             rows: Vec::new(),
         }
     }
 
     /// A row for each of `rows`: a column is its name and what it says of one.
-    pub fn of<T, F: Fn(&T) -> String>(rows: &[T], columns: &[(&'static str, F)]) -> Self {
+    pub fn of<T, F: Fn(&T) -> String>(rows: &[T], columns: &[(&str, F)]) -> Self {
         let cells = |row: &T| columns.iter().map(|(_, cell)| cell(row)).collect();
         Self {
-            columns: columns.iter().map(|(name, _)| *name).collect(),
+            columns: columns.iter().map(|(name, _)| (*name).to_owned()).collect(),
             rows: rows.iter().map(cells).collect(),
         }
     }
@@ -35,7 +35,7 @@ impl MarkdownTable {
     /// As Markdown.
     pub fn markdown(&self) -> String {
         let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-        let mut text = line(self.columns.iter().map(|&name| name.to_owned()).collect());
+        let mut text = line(self.columns.clone());
         text.push_str(&"|---".repeat(self.columns.len()));
         text.push_str("|\n");
         for row in &self.rows {
@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn cells_with_commas_and_bars_survive() {
         let table = MarkdownTable {
-            columns: vec!["case", "says"],
+            columns: vec!["case".to_owned(), "says".to_owned()],
             rows: vec![vec!["a, b".to_owned(), "x | \"y\"".to_owned()]],
         };
         assert_eq!(

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use asperity_engine::physics::gear::{GearPair, GearTeeth, LoadSharing};
-use asperity_engine::scene::{CycleBasis, Scene, presets};
+use asperity_engine::scene::{CycleBasis, Scene, Surface, presets};
 use asperity_study::Extent;
 use asperity_study::evidence::{
     Comparison, Evidence, EvidenceSet, Grade, evidence, evidence_table, evidence_text, planned,
@@ -224,6 +224,43 @@ fn places_along_the_tooth_are_those_of_the_involute() {
             (scene.force_n() / full.unwrap() / share - 1.0).abs() < 1e-3,
             "{label}"
         );
+    }
+}
+
+/// Every point can be tried with made surfaces, which have the Rq of its waves and last for the whole run, by every way.
+#[test]
+fn made_surfaces_fit_every_point() {
+    let set = set();
+    let ways = set.made.ways();
+    assert!(set.made.pairs >= 5 && ways.len() >= 3);
+    for point in set.experiments.iter().flat_map(|e| &e.point) {
+        let (waves, _) = planned(&point.scene, &point.set).unwrap();
+        for way in &ways {
+            let keys = set.made.keys(point, *way, 2).unwrap();
+            let (scene, plan) = planned(&point.scene, &keys).unwrap();
+            let bodies = [
+                (&waves.body_1.surface, &scene.body_1.surface),
+                (&waves.body_2.surface, &scene.body_2.surface),
+            ];
+            for (wave, made) in bodies {
+                match (wave, made) {
+                    (Surface::Smooth {}, Surface::Smooth {}) => {}
+                    (Surface::Sinusoid { amplitude_m, .. }, Surface::Random(made)) => {
+                        let rq_m = amplitude_m / 2_f64.sqrt();
+                        assert!((made.rq_m / rq_m - 1.0).abs() < 1e-3, "{}", point.label);
+                        assert_eq!(made.cutoff_short_m(), way.cutoff_short_m);
+                    }
+                    other => panic!("{}: {other:?}", point.label),
+                }
+            }
+            let length_m = plan.steps_per_passage as f64 * plan.dx_m * scene.time.step_nodes;
+            let length_m = length_m * scene.time.passages;
+            assert!(
+                length_m > 0.98 * set.made.period_x_m,
+                "{}: {length_m}",
+                point.label
+            );
+        }
     }
 }
 

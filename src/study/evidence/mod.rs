@@ -9,12 +9,14 @@ mod dent;
 mod fit;
 mod measure;
 mod plot;
+mod random;
 mod report;
 mod set;
 mod tried;
 
 use measure::SHRINKING;
 pub use plot::{agreement_plot, experiments_plot};
+pub use random::{AssumedRoughness, MadeRatio, MadeWay, TriedPairs, Verdict};
 pub use report::{evidence_table, evidence_text};
 use set::Values;
 pub use set::{
@@ -78,6 +80,8 @@ pub struct Evidence {
     pub experiments: Vec<Tried>,
     /// Nodes of the experiments' grid.
     pub nodes: usize,
+    /// What is assumed of made surfaces.
+    pub made: AssumedRoughness,
     /// Time taken, s.
     pub seconds: f64,
 }
@@ -87,7 +91,15 @@ impl Evidence {
     pub fn passes(&self) -> bool {
         let named = |row: &EvidenceRow| row.agrees() || row.cause.is_some();
         let rows = self.rows.iter();
-        let found = |tried: &Tried| tried.damages.iter().flatten().all(Result::is_ok);
+        let found = |tried: &Tried| {
+            let pairs = tried.pairs.damages.iter().flatten().flatten();
+            tried
+                .damages
+                .iter()
+                .flatten()
+                .chain(pairs)
+                .all(Result::is_ok)
+        };
         rows.clone().all(|row| row.failed.is_none() && named(row))
             && self.experiments.iter().all(found)
     }
@@ -97,6 +109,13 @@ impl Evidence {
 enum EvidenceJob<'a> {
     Case(&'a EvidenceCase, usize, usize),
     Point(&'a Experiment, &'a EvidencePoint, CycleBasis, usize),
+    Pair(
+        &'a Experiment,
+        &'a EvidencePoint,
+        &'a AssumedRoughness,
+        MadeWay,
+        u64,
+    ),
 }
 
 /// What came of it.
@@ -112,6 +131,10 @@ impl EvidenceJob<'_> {
             Self::Point(experiment, point, basis, _) => {
                 format!("{}, {}, {}", experiment.name, point.label, basis.key())
             }
+            Self::Pair(experiment, point, _, way, pair) => {
+                let [name, label] = [&experiment.name, &point.label];
+                format!("{name}, {label}, {}, pair {pair}", way.basis.key())
+            }
         }
     }
 
@@ -122,6 +145,9 @@ impl EvidenceJob<'_> {
             }
             Self::Point(_, point, basis, nodes) => {
                 EvidenceResult::Point(tried::damage(point, basis, nodes))
+            }
+            Self::Pair(_, point, assumed, way, pair) => {
+                EvidenceResult::Point(random::made_damage(assumed, point, way, pair))
             }
         }
     }
@@ -167,10 +193,20 @@ pub fn evidence(
     for (case, [coarse, fine]) in &cases {
         jobs.extend([*coarse, *fine].map(|nodes| EvidenceJob::Case(case, nodes, *fine)));
     }
+    let made = &set.made;
+    let (ways, n_pairs) = match extent {
+        Extent::Quick => (Vec::new(), 0),
+        Extent::Usual | Extent::Full => (made.ways(), made.pairs),
+    };
     for &experiment in &experiments {
         for point in &experiment.point {
             let all = CycleBasis::ALL.into_iter();
             jobs.extend(all.map(|basis| EvidenceJob::Point(experiment, point, basis, nodes)));
+            for way in &ways {
+                let pairs = 1..=n_pairs;
+                let job = |pair| EvidenceJob::Pair(experiment, point, made, *way, pair);
+                jobs.extend(pairs.map(job));
+            }
         }
     }
     let done = share_out(&jobs, workers, EvidenceJob::work, &mut |job, n_begun| {
@@ -187,15 +223,21 @@ pub fn evidence(
     let rows = pairs.flat_map(|((case, nodes), found)| rows(case, *nodes, found));
     let mut damages = damages.into_iter();
     let tried = experiments.iter().map(|&experiment| {
-        let points = experiment.point.iter();
-        let of_points = points.map(|_| damages.by_ref().take(CycleBasis::ALL.len()).collect());
-        let of_points = of_points.collect();
-        Tried::new(experiment, of_points)
+        let (mut by_waves, mut by_pairs) = (Vec::new(), Vec::new());
+        for _ in &experiment.point {
+            let mut next = |n: usize| damages.by_ref().take(n).collect::<Vec<_>>();
+            by_waves.push(next(CycleBasis::ALL.len()));
+            let pairs = ways.iter().map(|_| next(n_pairs as usize));
+            by_pairs.push(pairs.collect());
+        }
+        let pairs = TriedPairs::new(experiment, ways.len(), by_pairs);
+        Tried::new(experiment, by_waves, pairs)
     });
     Ok(Evidence {
         rows: rows.collect(),
         experiments: tried.collect(),
         nodes,
+        made: made.clone(),
         seconds: clock.elapsed().as_secs_f64(),
     })
 }

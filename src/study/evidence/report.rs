@@ -1,5 +1,7 @@
 //! The evidence as tables and words.
 
+mod made;
+
 use std::fmt::Write as _;
 
 use super::super::table::{MarkdownTable, figure};
@@ -127,10 +129,21 @@ fn push_experiments(text: &mut String, result: &Evidence) {
          damages are alike within a factor of 1.5, a measured ratio is met within half a decade.",
         result.nodes
     );
+    let ways = result.made.ways();
+    let is_made = (result.experiments.iter()).any(|tried| !tried.pairs.damages[0].is_empty());
+    if is_made {
+        made::push_assumed(text, &result.made);
+    }
     for tried in &result.experiments {
         push_experiment(text, tried);
+        if is_made {
+            made::push_experiment(text, tried, &result.made, &ways);
+        }
     }
     push_countings(text, &result.experiments);
+    if is_made {
+        made::push_verdicts(text, &result.experiments, &ways);
+    }
 }
 
 fn push_experiment(text: &mut String, tried: &Tried) {
@@ -173,14 +186,24 @@ fn push_experiment(text: &mut String, tried: &Tried) {
         let mut row = vec![judged.claim.says.clone(), figure(judged.claim.ratio)];
         let found = judged.ratios.iter().zip(&judged.holds);
         row.extend(found.map(|(ratio, holds)| {
-            let holds = if *holds { "yes" } else { "no" };
+            let holds = match (&judged.claim.not_compared, holds) {
+                (Some(_), _) => "not compared",
+                (None, true) => "yes",
+                (None, false) => "no",
+            };
             format!("{holds} {}", figure(Some(*ratio)))
         }));
         claims.rows.push(row);
     }
     text.push_str(&claims.markdown());
     for judged in &tried.judged {
-        if !judged.holds.iter().all(|holds| *holds) {
+        if let Some(why) = &judged.claim.not_compared {
+            let _ = writeln!(
+                text,
+                "\n*\"{}\"* is not compared: {why}.",
+                judged.claim.says
+            );
+        } else if !judged.holds.iter().all(|holds| *holds) {
             let why = judged.claim.why.as_deref().unwrap_or(UNKNOWN);
             let _ = writeln!(text, "\n*\"{}\"* fails: {why}.", judged.claim.says);
         }
@@ -226,7 +249,7 @@ fn push_forecast(text: &mut String, tried: &Tried) {
 fn push_countings(text: &mut String, experiments: &[Tried]) {
     text.push_str("\n## Countings\n\nClaims that hold, of those that go by life:\n\n");
     let by_life = |tried: &Tried| -> Vec<Judged> {
-        let judged = tried.judged.iter().filter(|judged| !judged.is_stress);
+        let judged = tried.judged.iter().filter(|judged| judged.counts());
         judged.cloned().collect()
     };
     let mut table = by_counting(&["experiment"]);
@@ -319,6 +342,7 @@ mod tests {
                 less: None,
                 ratio: None,
                 per_time: false,
+                not_compared: None,
                 why: None,
             },
             ratios: vec![1.0; CycleBasis::ALL.len()],

@@ -3,6 +3,8 @@
 use serde::Deserialize;
 
 use super::super::Extent;
+use super::random::AssumedRoughness;
+use super::tried::TriedDamage;
 use asperity_engine::closed_set;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
@@ -171,9 +173,29 @@ pub struct EvidenceClaim {
     /// Whether damage in equal times is compared, not in equal loading cycles.
     #[serde(default)]
     pub per_time: bool,
+    /// Why it cannot be compared; such a claim is shown and not counted.
+    #[serde(default)]
+    pub not_compared: Option<String>,
     /// Most likely cause where no counting agrees.
     #[serde(default)]
     pub why: Option<String>,
+}
+
+impl EvidenceClaim {
+    /// Damage of the one point over that of the other, by the damage of each label; `None`: one of them has none.
+    pub(super) fn ratio_of(&self, of: impl Fn(&str) -> Option<TriedDamage>) -> Option<f64> {
+        let more = of(&self.more)?;
+        let less = match &self.less {
+            Some(label) => of(label)?,
+            None => TriedDamage { value: 1.0, ..more },
+        };
+        let time = if self.per_time {
+            more.speed_m_s / less.speed_m_s
+        } else {
+            1.0
+        };
+        Some(more.value / less.value * time)
+    }
 }
 
 /// A calibration by one point of an experiment, and what it foretells of another.
@@ -232,6 +254,9 @@ pub struct EvidenceSet {
     /// Experiments.
     #[serde(rename = "experiment")]
     pub experiments: Vec<Experiment>,
+    /// The roughness of the experiments, made.
+    #[serde(rename = "made")]
+    pub made: AssumedRoughness,
 }
 
 impl EvidenceSet {

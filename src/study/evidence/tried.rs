@@ -1,7 +1,9 @@
 //! Experiments: the damage at their operating points by every counting of cycles, and whether what they say holds.
 
 use super::measure::{on_grid, run};
+use super::random::TriedPairs;
 use super::set::{Comparison, EvidenceClaim, EvidencePoint, Experiment};
+use asperity_engine::plan::Plan;
 use asperity_engine::scene::{CycleBasis, Scene, Surface};
 use asperity_engine::sim::{Frame, Simulation, Stage};
 
@@ -34,6 +36,13 @@ pub struct Judged {
     pub is_stress: bool,
 }
 
+impl Judged {
+    /// Whether it is among those by which countings are told apart.
+    pub fn counts(&self) -> bool {
+        !self.is_stress && self.claim.not_compared.is_none()
+    }
+}
+
 /// An experiment and what the program says of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tried {
@@ -43,6 +52,8 @@ pub struct Tried {
     pub damages: Vec<Vec<Result<TriedDamage, String>>>,
     /// Its claims.
     pub judged: Vec<Judged>,
+    /// The same with made surfaces; empty: not tried.
+    pub pairs: TriedPairs,
 }
 
 impl Tried {
@@ -50,6 +61,7 @@ impl Tried {
     pub(super) fn new(
         experiment: &Experiment,
         damages: Vec<Vec<Result<TriedDamage, String>>>,
+        pairs: TriedPairs,
     ) -> Self {
         let of = |label: &str, counting: usize| {
             let at = experiment.point.iter().position(|p| p.label == label)?;
@@ -58,20 +70,8 @@ impl Tried {
         let judged = experiment.claim.iter().map(|claim| {
             let ratios: Vec<f64> = (0..CycleBasis::ALL.len())
                 .map(|counting| {
-                    let more = of(&claim.more, counting);
-                    let less = match &claim.less {
-                        Some(label) => of(label, counting),
-                        None => more.map(|more| TriedDamage { value: 1.0, ..more }),
-                    };
-                    let ratio = |(more, less): (TriedDamage, TriedDamage)| {
-                        let time = if claim.per_time {
-                            more.speed_m_s / less.speed_m_s
-                        } else {
-                            1.0
-                        };
-                        more.value / less.value * time
-                    };
-                    more.zip(less).map_or(f64::NAN, ratio)
+                    let ratio = claim.ratio_of(|label| of(label, counting));
+                    ratio.unwrap_or(f64::NAN)
                 })
                 .collect();
             let is_stress = experiment
@@ -90,19 +90,26 @@ impl Tried {
             experiment: experiment.clone(),
             damages,
             judged,
+            pairs,
         }
     }
 }
 
-fn holds(claim: &EvidenceClaim, ratio: f64) -> bool {
-    let within = |off: f64, factor: f64| (1.0 / factor..=factor).contains(&off);
+/// Ratios between which a claim holds.
+pub(super) fn window(claim: &EvidenceClaim) -> [f64; 2] {
     match claim.kind {
-        Comparison::Rank => ratio > MORE,
-        Comparison::Equal => within(ratio, ALIKE),
-        Comparison::Ratio => claim
-            .ratio
-            .is_some_and(|theirs| within(ratio / theirs, HALF_A_DECADE)),
+        Comparison::Rank => [MORE, f64::INFINITY],
+        Comparison::Equal => [1.0 / ALIKE, ALIKE],
+        Comparison::Ratio => {
+            let theirs = claim.ratio.unwrap_or(f64::NAN);
+            [theirs / HALF_A_DECADE, theirs * HALF_A_DECADE]
+        }
     }
+}
+
+pub(super) fn holds(claim: &EvidenceClaim, ratio: f64) -> bool {
+    let [least, most] = window(claim);
+    ratio > least && ratio <= most
 }
 
 /// The damage of a point by a counting, on `nodes`.
@@ -114,13 +121,22 @@ pub(super) fn damage(
     let mut set = point.set.clone();
     set.push(format!("life.cycles={}", basis.key()));
     let (scene, plan) = on_grid(&point.scene, &set, nodes, nodes)?;
+    damage_of(point, &scene, plan)
+}
+
+/// The damage of a point by its scene.
+pub(super) fn damage_of(
+    point: &EvidencePoint,
+    scene: &Scene,
+    plan: Plan,
+) -> Result<TriedDamage, String> {
     let speed_m_s = scene.speeds_m_s()[point.body - 1].abs();
     let value = if let Some(depth_m) = point.depth_m {
         let mut smooth = scene.clone();
         (smooth.body_1.surface, smooth.body_2.surface) = (Surface::Smooth {}, Surface::Smooth {});
-        stress_at(&scene, depth_m)? / stress_at(&smooth, depth_m)?
+        stress_at(scene, depth_m)? / stress_at(&smooth, depth_m)?
     } else {
-        let summary = run(&scene, plan)?;
+        let summary = run(scene, plan)?;
         let life = [summary.life_body_1, summary.life_body_2][point.body - 1];
         1.0 / life.ok_or("no life")?
     };
@@ -133,7 +149,7 @@ pub(super) fn damage(
 
 /// Greatest effective stress of a passage at a depth of body 1, Pa.
 fn stress_at(scene: &Scene, depth_m: f64) -> Result<f64, String> {
-    let plan = asperity_engine::plan::Plan::new(scene).map_err(|error| error.to_string())?;
+    let plan = Plan::new(scene).map_err(|error| error.to_string())?;
     let steps = plan.steps_per_passage;
     let mut sim = Simulation::new(scene, plan, 1).map_err(|error| error.to_string())?;
     let mut frame = Frame::default();
@@ -171,6 +187,7 @@ mod tests {
             less: None,
             ratio,
             per_time: false,
+            not_compared: None,
             why: None,
         }
     }
