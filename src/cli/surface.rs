@@ -1,5 +1,6 @@
 //! `asperity surface`: what a measured or made surface is, and a scene with it.
 
+mod crests;
 mod pictures;
 
 use std::fmt::Write as _;
@@ -26,6 +27,7 @@ pub(crate) fn surface(args: &SurfaceArgs) -> Result<u8, Failure> {
             tell(&mut text, surface);
             draw(args, &mut text, &format!("body_{body}_"), surface)?;
         }
+        crests::tell(&mut text, &scene);
     } else {
         let scene = with_map(args)?;
         tell(&mut text, &scene.body_1.surface);

@@ -116,3 +116,45 @@ fn made_surfaces_have_what_they_were_asked_for() {
     assert!(number(&text, "Str") > 0.8, "{text}");
     assert_eq!(text.matches("Body ").count(), 2);
 }
+
+/// A scene with made surfaces: as many crests as their spectrum says, and from S = 0.5 on the highest that a point meets is that
+/// of extreme values within 15 % (what one surface leaves to chance), and higher the farther it slides.
+#[test]
+fn who_slides_farther_meets_a_higher_crest() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = asked(folder.path(), &["random_rollers"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    println!("{text}");
+    let numbers = |line: &str| -> Vec<f64> {
+        let words = line.split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'));
+        words.filter_map(|word| word.parse().ok()).collect()
+    };
+    let counts: Vec<&str> = text
+        .lines()
+        .filter(|l| l.starts_with("Crests of body"))
+        .collect();
+    assert_eq!(counts.len(), 2);
+    for line in counts {
+        let found = numbers(line);
+        assert!((found[1] / found[2] - 1.0).abs() < 0.03, "{line}");
+        assert!((found[4] / found[5] - 1.0).abs() < 0.05, "{line}");
+    }
+    for body in [1, 2] {
+        let begin = format!("The highest that a point of body {body} meets");
+        let table = text.split(&begin).nth(1).unwrap();
+        let rows = table
+            .lines()
+            .skip(2)
+            .take(6)
+            .map(|row| numbers(&row.replace('*', " ")));
+        let rows: Vec<Vec<f64>> = rows.collect();
+        let sliding: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+        assert_eq!(sliding, [0.0, 0.1, 0.25, 0.5, 1.0, 1.5]);
+        for pair in rows.windows(2) {
+            assert!(pair[1][2] > pair[0][2], "{table}");
+        }
+        for row in &rows[3..] {
+            assert!((row[2] / row[5] - 1.0).abs() < 0.15, "{row:?}");
+        }
+    }
+}

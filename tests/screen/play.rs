@@ -90,8 +90,11 @@ fn every_lesson_by_keys() {
         if place < 9 {
             terminal.press(&(place + 1).to_string());
         } else {
-            terminal.press("\x1b[A");
-            std::thread::sleep(std::time::Duration::from_millis(300));
+            // The list goes round: from the first one up to the last.
+            for _ in place..lessons.len() {
+                terminal.press("\x1b[A");
+                std::thread::sleep(std::time::Duration::from_millis(300));
+            }
             terminal.press("\r");
         }
         let beats = lesson.beats.len();

@@ -1,6 +1,7 @@
 //! Closed forms of contact mechanics, lubrication, stress and fatigue.
 
 pub mod areal;
+pub mod crest;
 pub mod cycles;
 pub mod estimate;
 pub mod eyring;
