@@ -237,6 +237,9 @@ pub(crate) struct SceneArgs {
     /// Length of the run after the start-up, in passages of 4 a at speed U (sets time.passages)
     #[arg(long, value_name = "N")]
     pub(crate) passages: Option<f64>,
+    /// Loading cycles that surfaces with a table [wear] have behind them at the end (sets age.cycles)
+    #[arg(long, value_name = "N")]
+    pub(crate) cycles: Option<f64>,
     /// Nodes per side of the last mesh, 2^k + 1 (sets grid.nodes): fewer for the impatient
     #[arg(long, value_name = "N")]
     pub(crate) nodes: Option<u16>,

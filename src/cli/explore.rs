@@ -130,7 +130,8 @@ fn start(
 ) -> Result<Running, Failure> {
     let session = engine(Request {
         name: prepared.name.clone(),
-        scene: prepared.scene.clone(),
+        // Knobs are turned on surfaces that stay as they are.
+        scene: Arc::new((*prepared.scene).clone().as_new()),
         plan: prepared.plan.clone(),
         threads,
         watchers: outputs.take_watchers(),

@@ -196,11 +196,57 @@ fn add_results(lines: &mut Lines, scene: &Scene, s: &Summary) {
         lines.add("passage", repetition);
     }
     add_by_itself(lines, scene, s);
+    add_wear(lines, s);
     life::add_life(lines, scene, s);
     let (load, mass) = (s.load_error, s.mass_error);
     lines.add("errors", format!("load {load:.1e}, mass {mass:.1e}"));
     for (k, caution) in s.cautions.iter().enumerate() {
         lines.add(if k == 0 { "cautions" } else { "" }, &caution.text);
+    }
+}
+
+/// What has been worn off, and what the surfaces came to on the way: at most so many lines.
+fn add_wear(lines: &mut Lines, s: &Summary) {
+    const SHOWN: usize = 16;
+    let Some(cycles) = s.cycles else {
+        return;
+    };
+    let depth = |depth_m: Option<f64>| match depth_m {
+        Some(depth_m) if depth_m >= 1e-10 => NM.show(depth_m, 3),
+        Some(depth_m) => format!("{} m", sig(depth_m, 3)),
+        None => "nothing".to_owned(),
+    };
+    let [one, two] = [s.wear_depth_1_m, s.wear_depth_2_m].map(depth);
+    let times = if cycles == 1.0 {
+        "one loading cycle takes".to_owned()
+    } else {
+        format!("{} loading cycles have taken", sig(cycles, 3))
+    };
+    lines.add(
+        "wear",
+        format!("{times} at most {one} off body 1 and {two} off body 2"),
+    );
+    let n = s.ages.len();
+    let every = n.div_ceil(SHOWN).max(1);
+    for (k, age) in s.ages.iter().enumerate() {
+        if k % every != 0 && k + 1 != n {
+            continue;
+        }
+        lines.add(
+            if k == 0 { "ages" } else { "" },
+            format!(
+                "{:>9} cycles: worn {} and {}, Rq {} and {}, p_max {}, on contacts {} %, friction {}{}",
+                sig(age.cycles, 3),
+                depth(Some(age.wear_depth_1_m)),
+                depth(Some(age.wear_depth_2_m)),
+                NM.show(age.rq_1_m, 3),
+                NM.show(age.rq_2_m, 3),
+                GPA.show(age.p_max_pa, 3),
+                sig(100.0 * age.contact_load_ratio, 2),
+                sig(age.friction_coefficient, 3),
+                known(age.life_relative, |life| format!(", life {}", sig(life, 3))),
+            ),
+        );
     }
 }
 

@@ -29,6 +29,9 @@ fn load(args: &SceneArgs) -> Result<Scene, SceneError> {
     if let Some(passages) = args.passages {
         overrides.push(Override::number("time.passages", passages)?);
     }
+    if let Some(cycles) = args.cycles {
+        overrides.push(Override::number("age.cycles", cycles)?);
+    }
     if let Some(nodes) = args.nodes {
         overrides.push(format!("grid.nodes={nodes}").parse()?);
     }

@@ -69,6 +69,8 @@ pub(crate) fn scene(nodes: usize, passages: f64) -> Scene {
         numerics: Numerics::default(),
         stress: None,
         life: None,
+        wear: None,
+        age: None,
         tooth: None,
         record: Some(Record::default()),
         events: Vec::<Event>::new(),

@@ -101,6 +101,8 @@ pub(crate) fn scene() -> Scene {
             cycles: CycleBasis::Global,
             ..Life::default()
         }),
+        wear: None,
+        age: None,
         tooth: None,
         record: Some(Record::default()),
         events: Vec::new(),

@@ -30,6 +30,7 @@ mod scene;
 mod simulation;
 mod stepping;
 mod surface_files;
+mod wear;
 mod work_counters;
 mod yielding;
 mod yielding_steps;

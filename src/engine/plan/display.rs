@@ -21,9 +21,11 @@ impl fmt::Display for Plan {
         for item in &self.left_out {
             writeln!(f, "  {:<24}{}", item.stage, item.why)?;
         }
-        let (stage, elastic) = match self.yielding {
-            Some(_) => ("heat, wear, deep yield", "elastic below the surface"),
-            None => ("heat, wear, yield", "elastic"),
+        let (stage, elastic) = match (self.yielding, self.wear) {
+            (Some(_), Some(_)) => ("heat, deep yield", "elastic below the surface"),
+            (Some(_), None) => ("heat, wear, deep yield", "elastic below the surface"),
+            (None, Some(_)) => ("heat, yield", "elastic"),
+            (None, None) => ("heat, wear, yield", "elastic"),
         };
         writeln!(
             f,
@@ -213,6 +215,9 @@ impl Plan {
         }
         if let Some((hardness_pa, flows)) = self.yielding {
             lines.push(yielding_text(hardness_pa, flows));
+        }
+        if let Some(wear) = self.wear {
+            lines.push(wear.text());
         }
         if let Some(stress) = self.stress {
             lines.push(format!(

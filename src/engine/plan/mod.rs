@@ -15,6 +15,7 @@ mod resolution;
 mod surfaces;
 mod truncation;
 mod warning;
+mod wear;
 
 pub use cost::Cost;
 pub use domain::{Crests, Domain};
@@ -24,6 +25,7 @@ pub use resolution::{KnobsAt, Resolution};
 pub use surfaces::WavePlan;
 pub use truncation::{Truncation, inlet_error, mesh_error, side_error};
 pub use warning::{LeftOut, PlanError, Warning};
+pub use wear::WearPlan;
 
 pub use crate::math::grid::Symmetry;
 use crate::physics::groups::Groups;
@@ -88,6 +90,8 @@ pub struct Plan {
     pub traction_deflection: Option<TractionDeflection>,
     /// Pressure at which the softer body flows, Pa, and which bodies do; `None`: both stay elastic.
     pub yielding: Option<(f64, [bool; 2])>,
+    /// What wears; `None`: nothing.
+    pub wear: Option<WearPlan>,
     /// Subsurface stress.
     pub stress: Option<StressPlan>,
     /// Fatigue life.
@@ -311,6 +315,7 @@ impl Plan {
             relief_lines: scene.surfaces().map(Surface::relief_lines),
             traction_deflection: decide::traction_deflection(scene),
             yielding: scene.hardness_pa().map(|pa| (pa, scene.softer())),
+            wear: WearPlan::new(scene, &hertz),
             stress: decide::stress_plan(scene, &hertz, &mut warnings),
             life: None,
             record: None,

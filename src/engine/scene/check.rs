@@ -236,6 +236,7 @@ fn beyond(slope: f64) -> String {
 /// The rules that tie keys together.
 pub(super) fn check_rules(scene: &Scene) -> Result<(), SceneError> {
     check_shape(scene)?;
+    scene.check_wear()?;
     check_load(scene)?;
     check_hardness(scene)?;
     scene.lubricant.as_ref().map_or(Ok(()), Lubricant::check)?;

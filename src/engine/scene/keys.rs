@@ -222,6 +222,24 @@ pub const SECTIONS: &[Section] = &[
         keys: super::life_keys::LIFE,
     },
     Section {
+        path: "wear",
+        need: Optional("nothing wears"),
+        doc: "Wear after Archard where asperities touch: depth a time = coefficient x pressure x |U2 - U1|; what the film carries does not wear.",
+        keys: &[
+            key("coefficient_1_per_pa", "1/Pa", Number(0.0, 1e-9), Defaulted, "wear coefficient of body 1 over its hardness; mild wear of lubricated steel: 1e-19 to 1e-17"),
+            key("coefficient_2_per_pa", "1/Pa", Number(0.0, 1e-9), Defaulted, "same of body 2"),
+        ],
+    },
+    Section {
+        path: "age",
+        need: Optional("new surfaces: one loading cycle's wear is told, and none has been taken"),
+        doc: "Loading cycles beyond those simulated: passages (time.passages each) alternate with jumps of many cycles, whose wear is taken off the heights.",
+        keys: &[
+            key("cycles", "", Number(1.0, 1e12), Defaulted, "loading cycles of each body; asperity run --cycles N sets it"),
+            key("tolerance", "", Number(1e-4, 0.5), Defaulted, "error of the heights in a jump, over the composite roughness or what is worn"),
+        ],
+    },
+    Section {
         path: "tooth",
         need: Optional("the contact rides on no tooth"),
         doc: "Where on a gear's tooth the contact is while events move it along: shown beside it, changes no result. Contact begins at t = 0.",

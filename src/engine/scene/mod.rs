@@ -23,6 +23,7 @@ pub mod presets;
 mod random;
 mod shape;
 mod tooth;
+mod wear;
 mod wrong;
 
 pub use error::{SceneError, drives_a_terminal};
@@ -41,4 +42,5 @@ pub use numerics::{ErrorSource, Numerics, Order, OrderAsked, Time};
 pub use random::RandomSurface;
 pub use shape::MINIMUM_HARDNESS;
 pub use tooth::Tooth;
+pub use wear::{Age, Wear};
 pub(crate) use wrong::unusual;

@@ -10,6 +10,7 @@ use super::lubricant::{Friction, Lubricant};
 use super::numerics::{Numerics, Time};
 use super::random::RandomSurface;
 use super::tooth::Tooth;
+use super::wear::{Age, Wear};
 use crate::closed_set;
 use crate::physics::height_map::HeightMap;
 pub use crate::physics::height_map::MapEdge;
@@ -56,6 +57,10 @@ pub struct Scene {
     pub stress: Option<Stress>,
     /// Fatigue life; `None`: not computed.
     pub life: Option<Life>,
+    /// What both bodies lose by wear; `None`: nothing.
+    pub wear: Option<Wear>,
+    /// Loading cycles beyond the passages that are simulated; `None`: none.
+    pub age: Option<Age>,
     /// Where on a gear's tooth the contact is; `None`: on none. It changes no result.
     pub tooth: Option<Tooth>,
     /// Recording; `None`: no recording.

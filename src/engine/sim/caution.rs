@@ -518,7 +518,8 @@ fn elastic_only(grounds: &Grounds) -> String {
         Some(_) => "elastic below surfaces that flow at their hardness",
         None => "elastic",
     };
-    format!("no wear, isothermal, {elastic}{initiation}")
+    let wear = if grounds.wears { "" } else { "no wear, " };
+    format!("{wear}isothermal, {elastic}{initiation}")
 }
 
 #[cfg(test)]

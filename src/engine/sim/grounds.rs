@@ -57,6 +57,8 @@ pub struct Grounds {
     pub reference: ReferenceLife,
     /// Whether cycles count by their damage.
     pub by_damage: bool,
+    /// Whether a surface wears.
+    pub wears: bool,
     /// Hardness of the softer body at which it flows, Pa; `None`: both are elastic.
     pub hardness_pa: Option<f64>,
     /// Part of all that has flowed that did so in the last passage (or period); `None`: nothing has.

@@ -34,6 +34,7 @@ mod summary;
 mod totals;
 mod variant;
 mod work;
+mod worn;
 mod yielded;
 
 pub use crate::scene::Knob;
@@ -48,4 +49,4 @@ pub use lubrication::LubricationRegime;
 pub use simulation::{Simulation, head_start};
 pub use state::State;
 pub use stats::Stats;
-pub use summary::{PitStart, Rung, Summary};
+pub use summary::{AgePoint, PitStart, Rung, Summary};

@@ -7,6 +7,7 @@
 //! passage   every number counts
 //! ```
 
+mod ageing;
 mod fill;
 mod follow;
 mod present;
@@ -25,6 +26,7 @@ use super::sim_plan::{DEVELOP, SimPlan};
 use super::state::{Phase, State};
 use super::stepping::Attempted;
 use super::work::{Work, thread_pool};
+use super::worn::Worn;
 use super::{Follow, Frame, Knob, Metrics, SimError, Stage, Stats, StepError, Summary};
 use crate::physics::cycles::BodyId;
 use crate::plan::{Plan, TimeDependence};
@@ -154,7 +156,11 @@ impl Simulation {
             Stepping::Fixed(_) => self.state.step as f64,
             Stepping::Adaptive { .. } => steps * self.state.distance / self.plan.decided.length_a,
         };
-        ((done as f64 + passed) / (all as f64 + steps).max(1.0)).min(1.0)
+        let run = ((done as f64 + passed) / (all as f64 + steps).max(1.0)).min(1.0);
+        match &self.state.worn {
+            Some(worn) => run.min(0.05 + 0.95 * worn.progress()),
+            None => run,
+        }
     }
 
     /// Lengths of 4 a at U since the start-up.
@@ -181,7 +187,8 @@ impl Simulation {
                 self.state.step >= self.plan.decided.steps
             }
         };
-        self.state.phase == Phase::Passage && enough
+        let aged = self.state.worn.as_ref().is_none_or(Worn::is_done);
+        self.state.phase == Phase::Passage && enough && aged
     }
 
     /// Scalars of the last step.

@@ -20,10 +20,12 @@ use super::sim_plan::SimPlan;
 use super::smooth::Smooth;
 use super::totals::Totals;
 use super::work::Work;
+use super::worn::{MOST_JUMPS, Worn};
 use super::yielded::Yielded;
-use super::{Knob, MeshErrors, Metrics, Stage};
+use super::{AgePoint, Knob, MeshErrors, Metrics, Stage};
+use crate::math::grid::Grid;
 use crate::saved::saved;
-use crate::scene::Scene;
+use crate::scene::{Scene, Wear};
 use crate::solve::march::ContactState;
 
 /// Where the run is.
@@ -64,6 +66,12 @@ pub struct State {
     pub(super) motion: Travel,
     /// What both bodies have yielded; `None`: they are elastic.
     pub(super) yielded: Option<Yielded>,
+    /// What both bodies have lost by wear; `None`: nothing wears.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) worn: Option<Worn>,
+    /// What each block of passages has come to, on the axis of loading cycles.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) ages: Vec<AgePoint>,
     /// Where both bodies were when they were looked at last, in a.
     pub(super) watched: [f64; 2],
     pub(super) counting: Option<Counting>,
@@ -95,7 +103,8 @@ pub struct State {
 
 saved! {
     State {
-        parts: motion, yielded, counting, life, totals, orbit, pace;
+        parts: motion, yielded, worn, counting, life, totals, orbit, pace;
+        room: ages;
         free: nodes, contact, drive, targets, watched, smooth, reference, phase, metrics, coarser, mesh_errors, distance,
             next_volume, step, time_s, start_up_steps;
     }
@@ -115,6 +124,17 @@ pub(super) fn drive_of(scene: &Scene) -> Drive {
         };
         (value, knob.line().ramp.rate(value))
     })
+}
+
+/// Nothing worn yet.
+fn worn(plan: &SimPlan, grid: &Grid, wear: Wear, repeats: [Option<f64>; 2]) -> Worn {
+    let scaling = &plan.scaling;
+    // Of P = 1 and a distance a, in film units.
+    let unit_m = scaling.p_hertz_pa * scaling.a_m;
+    let coefficients = wear.coefficients_per_pa();
+    let age = plan.scene.age.map(|age| [age.cycles, age.tolerance]);
+    let coefficients = coefficients.map(|k| scaling.h_from_m(k * unit_m));
+    Worn::new(grid, coefficients, repeats, age)
 }
 
 impl State {
@@ -143,6 +163,11 @@ impl State {
             targets,
             motion: Travel::new(),
             yielded: yields.then(|| Yielded::new(&fine, scene.softer(), repeats)),
+            ages: Vec::with_capacity(match &scene.age {
+                Some(_) => MOST_JUMPS as usize + 2,
+                None => 0,
+            }),
+            worn: scene.wear.map(|wear| worn(plan, &fine, wear, repeats)),
             watched: [0.0; 2],
             counting,
             life,

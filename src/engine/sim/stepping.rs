@@ -16,6 +16,7 @@ use super::pace::{StepTest, Stepping};
 use super::roughness::Roughness;
 use super::scaling::Scaling;
 use super::sim_plan::SimPlan;
+use super::worn::Worn;
 use super::yielded::Yielded;
 use super::{StepError, Unsolved};
 use crate::scene::Knob;
@@ -133,7 +134,7 @@ pub(super) fn place_surfaces(
     scaling: &Scaling,
     drive: &Drive,
     motion: &Travel,
-    yielded: Option<&Yielded>,
+    (yielded, worn): (Option<&Yielded>, Option<&Worn>),
 ) {
     let grid = &solver.grid;
     // Roughness is made for the finest grid; on the coarser ones of the start-up there is none yet.
@@ -154,6 +155,9 @@ pub(super) fn place_surfaces(
         if let Some(yielded) = yielded {
             let lowered = &mut roughness.heights[body];
             yielded.lower(grid, body, travel, amplitude, lowered);
+        }
+        if let Some(worn) = worn.filter(|worn| worn.wears(body)) {
+            worn.lower(grid, body, travel, &mut roughness.heights[body]);
         }
     }
     roughness.gap_into(&solver.macroscopic, &mut solver.gap);
@@ -177,6 +181,8 @@ pub(super) struct Mover<'a> {
     pub(super) given: Option<(&'a [f64], f64)>,
     /// What has yielded; `None`: elastic.
     pub(super) yielded: Option<&'a mut Yielded>,
+    /// What is worn; `None`: nothing.
+    pub(super) worn: Option<&'a Worn>,
 }
 
 impl Mover<'_> {
@@ -351,7 +357,7 @@ impl Mover<'_> {
             &self.plan.scaling,
             self.drive,
             self.motion,
-            self.yielded.as_deref(),
+            (self.yielded.as_deref(), self.worn),
         );
     }
 

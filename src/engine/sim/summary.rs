@@ -231,6 +231,19 @@ pub struct Summary {
     /// Shortest wave of the made surfaces, m, on which lives hang; `None`: there are none.
     #[serde(default)]
     pub cutoff_short_m: Option<f64>,
+    /// Loading cycles that the surfaces have behind them; 1, that of the passages, where no ageing is asked for; `None`: nothing
+    /// wears.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cycles: Option<f64>,
+    /// Greatest depth that body 1 has lost in those cycles, m; `None`: it does not wear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wear_depth_1_m: Option<f64>,
+    /// Same of body 2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wear_depth_2_m: Option<f64>,
+    /// What the surfaces came to on the way; empty: they were not aged.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ages: Vec<AgePoint>,
     /// The height map of body 1; left out where it has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map_body_1: Option<MapReport>,
@@ -266,6 +279,31 @@ pub struct PitStart {
     pub place_m: f64,
     /// Damage of a crossing over that of the worst point of the smooth contact.
     pub damage: f64,
+}
+
+/// Surfaces after so many loading cycles: means over one block of passages.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct AgePoint {
+    /// Loading cycles.
+    pub cycles: f64,
+    /// Greatest depth that body 1 has lost, m.
+    pub wear_depth_1_m: f64,
+    /// Same of body 2.
+    pub wear_depth_2_m: f64,
+    /// Root-mean-square height of body 1 in the domain, m, what has flowed and worn taken off.
+    pub rq_1_m: f64,
+    /// Same of body 2.
+    pub rq_2_m: f64,
+    /// Life of surfaces that would stay as they are now.
+    pub life_relative: Option<f64>,
+    /// Greatest pressure of a step, Pa: the mean over the steps.
+    pub p_max_pa: f64,
+    /// Film thickness at the origin, m.
+    pub h_central_m: f64,
+    /// Part of the load that contacts carry.
+    pub contact_load_ratio: f64,
+    /// Friction force over load.
+    pub friction_coefficient: f64,
 }
 
 /// What one mesh of a ladder came to.

@@ -131,6 +131,10 @@ fn roughness(plan: &SimPlan, grid: &Grid) -> Roughness {
             roughness.make_heights(grid, body);
         }
     }
+    let worn = scene.wear.unwrap_or_default().coefficients_per_pa();
+    for body in [0, 1].into_iter().filter(|&body| worn[body] > 0.0) {
+        roughness.make_heights(grid, body);
+    }
     roughness
 }
 

@@ -261,7 +261,8 @@ fn start(
     ending: Ending,
 ) -> Result<(PageRun, Setup), String> {
     let (scene, plan) = on_nodes(scene, nodes)?;
-    let scene = Arc::new(scene);
+    // Knobs are turned on surfaces that stay as they are.
+    let scene = Arc::new(scene.as_new());
     let setup = Setup::of(Arc::clone(&scene), name, &plan);
     let rows = KeptRows::default();
     let request = Request {
@@ -382,7 +383,7 @@ mod tests {
         let asked = page.caption();
         let lines: Vec<&str> = asked.split('\n').collect();
         assert!(
-            lines[0] == "lesson" && lines[1].starts_with("1/10") && lines[2].contains("How often"),
+            lines[0] == "lesson" && lines[1].starts_with("1/11") && lines[2].contains("How often"),
             "{asked}"
         );
         // What gives the answer away is not told before.

@@ -172,6 +172,8 @@ impl Checkpoint {
             numerics,
             stress,
             life,
+            wear,
+            age,
             tooth: _,
             record: _,
             events,
@@ -191,6 +193,8 @@ impl Checkpoint {
             (saved.numerics == *numerics, "[numerics]"),
             (saved.stress == *stress, "[stress]"),
             (saved.life == *life, "[life]"),
+            (saved.wear == *wear, "[wear]"),
+            (saved.age == *age, "[age]"),
             (saved.events == *events, "[[event]]"),
         ];
         match agree.into_iter().find(|(same, _)| !same) {

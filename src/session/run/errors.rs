@@ -89,7 +89,7 @@ pub(super) fn coarser(scene: &Scene, plan: &Plan) -> Result<Scene, NoEstimate> {
     // Two orders would be no sequence.
     coarse.numerics.order = plan.order.into();
     coarse.record = None;
-    Ok(coarse)
+    Ok(coarse.as_new())
 }
 
 /// Of the extremes, for an observed order of 1.3: 3/(2^1.3 − 1).
@@ -98,6 +98,10 @@ const EXTREMES: f64 = 2.0;
 /// Writes the errors into the summary of a run by `plan`, from that of a run on half the nodes; the band of life becomes
 /// theirs.
 pub(super) fn set_errors(fine: &mut Summary, coarse: &Summary, scene: &Scene, plan: &Plan) {
+    // A coarser mesh has new surfaces: between the two lies what has been worn off.
+    if scene.age.is_some() {
+        return;
+    }
     let life = |(life, below)| life_error(life, below, scene, plan);
     set_by(fine, coarse, (Crest::of(plan), plan.order), life);
 }

@@ -24,6 +24,7 @@ pub fn hangs_on_oil_law(scene: &Arc<Scene>, plan: &Plan) -> bool {
         && scene.life.is_some()
         && scene.motion.slide_roll != 0.0
         && scene.events.is_empty()
+        && scene.age.is_none()
         && Ladder::of(scene, plan).meshes().len() > 1
 }
 

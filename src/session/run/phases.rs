@@ -28,7 +28,11 @@ pub fn asks_for_no_phase(scene: &Scene) -> bool {
         } => *amplitude_m > 0.0 && *phase_deg == 0.0 && surface.varies_along_x(),
         Surface::Smooth {} | Surface::Random(_) | Surface::HeightMap { .. } => false,
     });
-    waves && scene.life.is_some() && scene.motion.slide_roll == 0.0 && scene.events.is_empty()
+    waves
+        && scene.age.is_none()
+        && scene.life.is_some()
+        && scene.motion.slide_roll == 0.0
+        && scene.events.is_empty()
 }
 
 /// The scene with another phase of body 1.

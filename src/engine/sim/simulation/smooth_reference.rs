@@ -100,6 +100,7 @@ fn advance_smooth(
             stepping: Stepping::Fixed(usual),
             given: None,
             yielded: None,
+            worn: None,
         }
         .advance(usual)
     });

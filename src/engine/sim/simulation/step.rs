@@ -1,5 +1,6 @@
 //! One step of a run, by the phase that it is in: state goes in, state comes out.
 
+use super::ageing::age;
 use super::follow;
 use super::smooth_reference::step_smooth;
 use super::start_up::refine_or_develop;
@@ -70,6 +71,9 @@ fn begin_passage(plan: &SimPlan, state: &mut State) {
 
 /// Counts and phases seen so far belong to other conditions. The next step is looked at.
 pub(super) fn forget_passage(plan: &SimPlan, state: &mut State) {
+    if let Some(worn) = &mut state.worn {
+        worn.forget_block();
+    }
     state.orbit.restart();
     let window = state.orbit.life_window(plan.decided.passage_a);
     if let Some(life) = &mut state.life {
@@ -102,7 +106,7 @@ fn passage_step(
     stats: &mut Stats,
 ) -> Result<(), StepError> {
     step_smooth(plan, state, work, stats)?;
-    let before = state.distance;
+    let (travelled, before) = (state.motion.travelled, state.distance);
     // Where a body yields at rest, what enters is flattened anew.
     let held = matches!(plan.decided.time_dependence, TimeDependence::Steady { .. })
         && state.motion.is_flushed()
@@ -127,6 +131,7 @@ fn passage_step(
         state.distance,
         state.orbit.window(plan.decided.passage_a),
     );
+    age(plan, state, work, stats, (travelled, before));
     Ok(())
 }
 
@@ -165,6 +170,7 @@ fn advance(
             stepping,
             given,
             yielded,
+            worn: state.worn.as_ref().filter(|_| !is_smooth),
         }
         .advance(nodes)
     });

@@ -1,5 +1,6 @@
 //! The summary of a run so far.
 
+use super::ageing::depths_m;
 use super::fill::place_m;
 use super::present::grounds;
 use super::view::View;
@@ -20,6 +21,9 @@ pub(super) fn summary(sim: View, stats: &Stats) -> Summary {
         life_estimate(sim.plan, sim.state).as_ref(),
         sim.state.life.as_ref(),
     );
+    let worn = sim.state.worn.as_ref();
+    let travelled = sim.state.motion.travelled;
+    let depths_m = worn.map_or([None; 2], |worn| depths_m(sim.plan, worn, travelled));
     let known = Summary {
         steps: sim.state.step,
         a_m: hertz.a_m * size,
@@ -37,6 +41,10 @@ pub(super) fn summary(sim: View, stats: &Stats) -> Summary {
         cycles_end_depth_1_m: cycles_end(sim, BodyId::One),
         cycles_end_depth_2_m: cycles_end(sim, BodyId::Two),
         a_iso: a_iso(sim),
+        cycles: worn.map(|worn| worn.cycles().0),
+        wear_depth_1_m: depths_m[0],
+        wear_depth_2_m: depths_m[1],
+        ages: sim.state.ages.clone(),
         ..life
     };
     sim.state.totals.summary(m, known)

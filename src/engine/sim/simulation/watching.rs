@@ -213,7 +213,7 @@ pub(super) fn see_again(plan: &SimPlan, state: &State, work: &mut Work) -> Measu
         &plan.scaling,
         &state.drive,
         &state.motion,
-        state.yielded.as_ref(),
+        (state.yielded.as_ref(), state.worn.as_ref()),
     );
     slice_again(plan, state, work)
 }

@@ -1,0 +1,56 @@
+//! What wears, and how much at most.
+//!
+//! ```text
+//! depth a loading cycle of body i   ≤   k_i (|U2 − U1|/U_i) (π/2) p_h a        all load on contacts, on the centre line
+//! ```
+//! Of a line that is exact whatever the profile of the pressure, as w' = p_h π a/2 (Archard 1953 with Hertz 1882).
+
+use crate::math::number::{length, sig};
+use crate::physics::hertz::Hertz;
+use crate::scene::{Age, Scene};
+
+/// Wear as the plan has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WearPlan {
+    /// Greatest depth that a loading cycle can take from body 1 and 2 if all load is on contacts, m; infinite: a body at rest.
+    pub most_a_cycle_m: [f64; 2],
+    /// Loading cycles that are asked for.
+    pub age: Option<Age>,
+}
+
+impl WearPlan {
+    /// Of a scene with a table `[wear]`.
+    pub(super) fn new(scene: &Scene, hertz: &Hertz) -> Option<Self> {
+        let wear = scene.wear?;
+        let slide_roll = scene.motion.slide_roll;
+        // U_i/U: S = (U2 − U1)/U.
+        let speeds = [1.0 - 0.5 * slide_roll, 1.0 + 0.5 * slide_roll];
+        let load = std::f64::consts::FRAC_PI_2 * hertz.p_max_pa * hertz.a_m;
+        let most = |body: usize| match wear.coefficients_per_pa()[body] {
+            0.0 => 0.0,
+            k => k * load * slide_roll.abs() / speeds[body].abs(),
+        };
+        Some(Self {
+            most_a_cycle_m: [most(0), most(1)],
+            age: scene.age,
+        })
+    }
+
+    /// In words.
+    pub(super) fn text(&self) -> String {
+        let [one, two] = self.most_a_cycle_m.map(|depth_m| match depth_m {
+            depth_m if depth_m > 0.0 && depth_m.is_finite() => {
+                format!("{} m", sig(depth_m, 3))
+            }
+            0.0 => length(0.0),
+            _ => "without bound: it stands".to_owned(),
+        });
+        let most = format!(
+            "wear where asperities touch: at most {one} and {two} a loading cycle of body 1 and 2"
+        );
+        match self.age {
+            Some(age) => format!("{most}; {} cycles by jumps", sig(age.cycles, 3)),
+            None => format!("{most}; one cycle is told, none is taken off"),
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! The surfaces at the end of a step of the passage: what it has worn, and the jump at the end of a block of passages.
+
+use super::step::forget_passage;
+use super::summary::summary;
+use super::view::View;
+use super::watching::see_again;
+use crate::math::grid::Grid;
+use crate::plan::TimeDependence;
+use crate::sim::sim_plan::{DEVELOP, SimPlan};
+use crate::sim::state::Phase;
+use crate::sim::summary::AgePoint;
+use crate::sim::work::Work;
+use crate::sim::worn::{Rubbing, Worn};
+use crate::sim::{Knob, State, Stats};
+
+/// Counts what a step has worn, and jumps where a block of passages ends.
+/// `before`: where body 1, body 2 and the run were when it began, in a.
+pub(super) fn age(
+    plan: &SimPlan,
+    state: &mut State,
+    work: &mut Work,
+    stats: &Stats,
+    before: ([f64; 2], f64),
+) {
+    if state.phase != Phase::Passage || !state.motion.is_flushed() {
+        return;
+    }
+    let Some(worn) = &mut state.worn else {
+        return;
+    };
+    let law = plan.law_now(&state.drive);
+    let step = Rubbing {
+        grid: &work.solver.grid,
+        law: &law,
+        pressure: &state.contact.pressure,
+        film: &state.contact.film,
+        sliding: state.drive.get(Knob::SlideRoll).now.abs(),
+        dt: state.distance - before.1,
+        travels: state.motion.of_bodies(),
+        moved: [0, 1].map(|body: usize| state.motion.travelled[body] - before.0[body]),
+    };
+    worn.count(&step, state.distance);
+    let amplitudes = Knob::AMPLITUDES.map(|knob| state.drive.get(knob).now);
+    let rq_m = (amplitudes[0] * plan.rms_shares[0]).hypot(amplitudes[1] * plan.rms_shares[1]);
+    let roughness = plan.scaling.h_from_m(rq_m);
+    let length = match plan.decided.time_dependence {
+        TimeDependence::Steady { .. } => 0.0,
+        TimeDependence::Transient => plan.decided.length_a,
+    };
+    let depths_m = depths_m(plan, worn, state.motion.travelled);
+    let Some(end) = worn.end_block(length, state.distance, state.motion.travelled, roughness)
+    else {
+        return;
+    };
+    if let Some(cycles) = end.cycles {
+        let point = point(plan, state, work, stats, cycles, depths_m);
+        // The last cycle comes once more, with the heights that both rates make.
+        let again = |last: &AgePoint| cycles > 0.0 && cycles - last.cycles <= 1e-9 * cycles;
+        if state.ages.last().is_some_and(again) {
+            state.ages.pop();
+        }
+        if state.ages.len() < state.ages.capacity() {
+            state.ages.push(point);
+        }
+    }
+    if end.moved {
+        see_again(plan, state, work);
+        state.motion.disturb(DEVELOP);
+        forget_passage(plan, state);
+    }
+}
+
+/// Greatest depths that both bodies have lost, m.
+pub(super) fn depths_m(plan: &SimPlan, worn: &Worn, travelled: [f64; 2]) -> [Option<f64>; 2] {
+    let depths = worn.depths(travelled);
+    depths.map(|depth| depth.map(|h| plan.scaling.m_from_h(h)))
+}
+
+/// What the block that ends has come to.
+fn point(
+    plan: &SimPlan,
+    state: &State,
+    work: &Work,
+    stats: &Stats,
+    cycles: f64,
+    depths_m: [Option<f64>; 2],
+) -> AgePoint {
+    let found = summary(View { plan, state, work }, stats);
+    let heights = &work.roughness.heights;
+    let [rq_1_m, rq_2_m] = [0, 1].map(|body: usize| {
+        let rms = rms(&work.solver.grid, &heights[body]);
+        plan.scaling.m_from_h(rms)
+    });
+    AgePoint {
+        cycles,
+        wear_depth_1_m: depths_m[0].unwrap_or(0.0),
+        wear_depth_2_m: depths_m[1].unwrap_or(0.0),
+        rq_1_m,
+        rq_2_m,
+        life_relative: found.life_relative,
+        p_max_pa: found.p_max_pa,
+        h_central_m: found.h_central_m,
+        contact_load_ratio: found.contact_load_ratio,
+        friction_coefficient: found.friction_coefficient,
+    }
+}
+
+/// Root mean square about the mean; 0 of a body that is smooth.
+fn rms(grid: &Grid, heights: &[f64]) -> f64 {
+    if heights.len() != grid.len() {
+        return 0.0;
+    }
+    let area = grid.integrate(|_| 1.0);
+    let mean = grid.integrate(|n| heights[n]) / area;
+    let rms = (grid.integrate(|n| (heights[n] - mean).powi(2)) / area).sqrt();
+    // What rounding leaves of a body that wears alike all along.
+    if rms < 1e-9 * mean.abs() { 0.0 } else { rms }
+}
