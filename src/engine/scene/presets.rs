@@ -43,6 +43,7 @@ const PRESETS: &[Preset] = &[
 /// Presets whose surfaces are too fine for meshes below their own: what tries all presets on coarse meshes leaves them out.
 const FINE: &[Preset] = &[preset!("random_rollers")];
 
+#[cfg(not(target_arch = "wasm32"))]
 macro_rules! evidence {
     ($name:literal) => {
         Preset {
@@ -52,6 +53,11 @@ macro_rules! evidence {
     };
 }
 
+/// A page is loaded over a line: it opens the presets, and no more.
+#[cfg(target_arch = "wasm32")]
+const EVIDENCE: &[Preset] = &[];
+
+#[cfg(not(target_arch = "wasm32"))]
 const EVIDENCE: &[Preset] = &[
     evidence!("hertz_circle"),
     evidence!("hertz_line"),
@@ -75,6 +81,9 @@ const EVIDENCE: &[Preset] = &[
 ];
 
 /// Height maps that those scenes name as `builtin:NAME`.
+#[cfg(target_arch = "wasm32")]
+const MAPS: &[(&str, &str)] = &[];
+#[cfg(not(target_arch = "wasm32"))]
 const MAPS: &[(&str, &str)] = &[(
     "mourier_dent.csv",
     include_str!("../assets/evidence/mourier_dent.csv"),
