@@ -12,6 +12,7 @@ pub mod dry;
 mod faces;
 pub mod film;
 mod fluidity;
+pub mod heat;
 pub mod history;
 pub mod jacobian;
 pub mod krylov;
