@@ -131,7 +131,7 @@ fn start(
     let session = engine(Request {
         name: prepared.name.clone(),
         // Knobs are turned on surfaces that stay as they are.
-        scene: Arc::new((*prepared.scene).clone().as_new()),
+        scene: Arc::new((*prepared.scene).clone().mechanical()),
         plan: prepared.plan.clone(),
         threads,
         watchers: outputs.take_watchers(),

@@ -196,12 +196,47 @@ fn add_results(lines: &mut Lines, scene: &Scene, s: &Summary) {
         lines.add("passage", repetition);
     }
     add_by_itself(lines, scene, s);
+    add_heat(lines, s);
     add_wear(lines, s);
     life::add_life(lines, scene, s);
     let (load, mass) = (s.load_error, s.mass_error);
     lines.add("errors", format!("load {load:.1e}, mass {mass:.1e}"));
     for (k, caution) in s.cautions.iter().enumerate() {
         lines.add(if k == 0 { "cautions" } else { "" }, &caution.text);
+    }
+}
+
+/// How warm the surfaces become.
+fn add_heat(lines: &mut Lines, s: &Summary) {
+    let (Some(greatest), Some(mean)) = (s.flash_temperature_max_k, s.flash_temperature_mean_k)
+    else {
+        return;
+    };
+    let blok = known(s.flash_temperature_blok_k, |blok| {
+        format!(" (Blok's formula with this friction: {} K)", sig(blok, 3))
+    });
+    let share = known(s.heat_share_1, |share| {
+        format!("; {} % of the heat enters body 1", sig(100.0 * share, 3))
+    });
+    let warmest = known(s.contact_temperature_max_k, |k| {
+        format!(", up to {} degrees C", sig(k - 273.15, 4))
+    });
+    lines.add(
+        "heat",
+        format!(
+            "flash temperature at most {} K{blok}, {} K on average over the Hertz area{warmest}{share}",
+            sig(greatest, 3),
+            sig(mean, 3)
+        ),
+    );
+    if let Some(factor) = s.inlet_heating_factor {
+        lines.add(
+            "",
+            format!(
+                "heated in the inlet the film would be {} times as thick (Wilson & Sheu 1983); here film and friction are isothermal",
+                sig(factor, 3)
+            ),
+        );
     }
 }
 

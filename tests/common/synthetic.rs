@@ -69,6 +69,7 @@ pub(crate) fn scene(nodes: usize, passages: f64) -> Scene {
         numerics: Numerics::default(),
         stress: None,
         life: None,
+        heat: None,
         wear: None,
         age: None,
         tooth: None,

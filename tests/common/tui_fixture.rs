@@ -101,6 +101,7 @@ pub(crate) fn scene() -> Scene {
             cycles: CycleBasis::Global,
             ..Life::default()
         }),
+        heat: None,
         wear: None,
         age: None,
         tooth: None,

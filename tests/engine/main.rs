@@ -12,6 +12,7 @@ mod ehl_elliptic;
 mod ehl_smooth;
 mod ehl_transient;
 mod eyring;
+mod heat;
 mod height_map;
 mod hertz_dry;
 mod ladder;

@@ -13,6 +13,7 @@ pub mod fluid;
 pub mod gear;
 pub mod gear_tooth;
 pub mod groups;
+pub mod heat_estimate;
 pub mod height_distribution;
 pub mod height_map;
 pub mod hertz;

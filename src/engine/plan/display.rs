@@ -22,14 +22,20 @@ impl fmt::Display for Plan {
             writeln!(f, "  {:<24}{}", item.stage, item.why)?;
         }
         let (stage, elastic) = match (self.yielding, self.wear) {
-            (Some(_), Some(_)) => ("heat, deep yield", "elastic below the surface"),
-            (Some(_), None) => ("heat, wear, deep yield", "elastic below the surface"),
-            (None, Some(_)) => ("heat, yield", "elastic"),
-            (None, None) => ("heat, wear, yield", "elastic"),
+            (Some(_), Some(_)) => ("deep yield", "elastic below the surface"),
+            (Some(_), None) => ("wear, deep yield", "elastic below the surface"),
+            (None, Some(_)) => ("yield", "elastic"),
+            (None, None) => ("wear, yield", "elastic"),
         };
+        let (heat, isothermal) = if self.heats {
+            ("", "film and friction isothermal")
+        } else {
+            ("heat, ", "isothermal")
+        };
+        let stage = format!("{heat}{stage}");
         writeln!(
             f,
-            "  {stage:<24}not in the model: isothermal, {elastic}, crack initiation only"
+            "  {stage:<24}not in the model: {isothermal}, {elastic}, crack initiation only"
         )?;
         if !self.warnings.is_empty() {
             writeln!(f, "\nCautions")?;
@@ -215,6 +221,11 @@ impl Plan {
         }
         if let Some((hardness_pa, flows)) = self.yielding {
             lines.push(yielding_text(hardness_pa, flows));
+        }
+        if self.heats {
+            lines.push(
+                "flash temperature of both surfaces by moving sources, every step".to_owned(),
+            );
         }
         if let Some(wear) = self.wear {
             lines.push(wear.text());

@@ -90,6 +90,8 @@ pub struct Plan {
     pub traction_deflection: Option<TractionDeflection>,
     /// Pressure at which the softer body flows, Pa, and which bodies do; `None`: both stay elastic.
     pub yielding: Option<(f64, [bool; 2])>,
+    /// Whether surface temperatures are computed.
+    pub heats: bool,
     /// What wears; `None`: nothing.
     pub wear: Option<WearPlan>,
     /// Subsurface stress.
@@ -315,6 +317,7 @@ impl Plan {
             relief_lines: scene.surfaces().map(Surface::relief_lines),
             traction_deflection: decide::traction_deflection(scene),
             yielding: scene.hardness_pa().map(|pa| (pa, scene.softer())),
+            heats: scene.heat.is_some(),
             wear: WearPlan::new(scene, &hertz),
             stress: decide::stress_plan(scene, &hertz, &mut warnings),
             life: None,

@@ -31,6 +31,12 @@ const BODY: &[Key] = &[
     key("hardness_pa", "Pa", NumberOrInf(1e6, 1e12), Optional("it stays elastic"), "greatest pressure that its surface carries: what would exceed it flows for good (a surface whose amplitude is turned down later takes its flattened crests along); inf: elastic"),
 ];
 #[rustfmt::skip]
+const BODY_HEAT: &[Key] = &[
+    key("thermal_conductivity_w_mk", "W/(m K)", Number(0.01, 5000.0), Defaulted, "conductivity"),
+    key("density_kg_m3", "kg/m3", Number(10.0, 30000.0), Defaulted, "density"),
+    key("heat_capacity_j_kgk", "J/(kg K)", Number(10.0, 10000.0), Defaulted, "heat capacity"),
+];
+#[rustfmt::skip]
 const SURFACE: &[Key] = &[
     key("kind", "", Choice(SurfaceKind::KEYS), Required, "micro-geometry that moves with the body"),
     key("file", "", Text(4096), Required, "heights, .npy, .csv, .x3p or .sur, columns along x; path relative to this file; or builtin:NAME"),
@@ -105,6 +111,12 @@ pub const SECTIONS: &[Section] = &[
         keys: BODY,
     },
     Section {
+        path: "body_1.heat",
+        need: Optional("bearing steel: 46 W/(m K), 7850 kg/m3, 470 J/(kg K)"),
+        doc: "Thermal properties of the body; read with [heat].",
+        keys: BODY_HEAT,
+    },
+    Section {
         path: "body_1.surface",
         need: Defaulted,
         doc: "",
@@ -115,6 +127,12 @@ pub const SECTIONS: &[Section] = &[
         need: Defaulted,
         doc: "The body above.",
         keys: BODY,
+    },
+    Section {
+        path: "body_2.heat",
+        need: Optional("bearing steel: 46 W/(m K), 7850 kg/m3, 470 J/(kg K)"),
+        doc: "Thermal properties of the body; read with [heat].",
+        keys: BODY_HEAT,
     },
     Section {
         path: "body_2.surface",
@@ -220,6 +238,18 @@ pub const SECTIONS: &[Section] = &[
         need: Optional("no fatigue life"),
         doc: "Relative fatigue life; zaretsky: ln(1/Ps) = C (n N)^e times the integral of sigma^(c e) over the volume.",
         keys: super::life_keys::LIFE,
+    },
+    Section {
+        path: "heat",
+        need: Optional("no temperatures"),
+        doc: "Flash temperature of both surfaces by moving sources of heat. Film and friction stay isothermal.",
+        keys: &[
+            key("bulk_k", "K", Number(150.0, 1000.0), Defaulted, "temperature of both bodies and of the oil that enters"),
+            key("thermal_conductivity_w_mk", "W/(m K)", Number(0.001, 10.0), Defaulted, "conductivity of the oil, across which both surfaces exchange heat"),
+            key("density_kg_m3", "kg/m3", Number(100.0, 3000.0), Defaulted, "density of the oil"),
+            key("heat_capacity_j_kgk", "J/(kg K)", Number(100.0, 10000.0), Defaulted, "heat capacity of the oil"),
+            key("viscosity_temperature_per_k", "1/K", Number(0.0, 0.5), Optional("by lubricant.vg, or no inlet factor is told"), "how fast the viscosity falls, -d ln(viscosity)/dT, for the inlet's heating"),
+        ],
     },
     Section {
         path: "wear",

@@ -8,6 +8,7 @@ mod check;
 mod derived;
 mod emit;
 mod error;
+mod heat;
 mod height_map;
 mod key;
 pub mod keys;
@@ -27,6 +28,7 @@ mod wear;
 mod wrong;
 
 pub use error::{SceneError, drives_a_terminal};
+pub use heat::{BodyHeat, Heat};
 pub use knob::{Knob, KnobLine, RampRate, Reach, Steps};
 pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread};
 pub use load::Override;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::heat::{BodyHeat, Heat};
 use super::life::Life;
 use super::lubricant::{Friction, Lubricant};
 use super::numerics::{Numerics, Time};
@@ -57,6 +58,8 @@ pub struct Scene {
     pub stress: Option<Stress>,
     /// Fatigue life; `None`: not computed.
     pub life: Option<Life>,
+    /// What says how warm the surfaces become; `None`: nobody asks.
+    pub heat: Option<Heat>,
     /// What both bodies lose by wear; `None`: nothing.
     pub wear: Option<Wear>,
     /// Loading cycles beyond the passages that are simulated; `None`: none.
@@ -94,6 +97,9 @@ pub struct Body {
     /// Maximum pressure that its surface carries before it flows for good, Pa; `None` or infinite: it stays elastic.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness_pa: Option<f64>,
+    /// Its thermal properties; `None`: steel's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub heat: Option<BodyHeat>,
     /// Surface roughness.
     pub surface: Surface,
 }
@@ -104,6 +110,7 @@ impl Default for Body {
             young_pa: 2.1e11,
             poisson: 0.3,
             hardness_pa: None,
+            heat: None,
             surface: Surface::Smooth {},
         }
     }

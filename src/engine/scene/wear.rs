@@ -42,10 +42,10 @@ impl Wear {
 }
 
 impl Scene {
-    /// Without what goes beyond one passage of new surfaces.
+    /// The mechanics of one passage of new surfaces: without wear, ageing and heat.
     #[must_use]
-    pub fn as_new(mut self) -> Self {
-        (self.wear, self.age) = (None, None);
+    pub fn mechanical(mut self) -> Self {
+        (self.wear, self.age, self.heat) = (None, None, None);
         self
     }
 

@@ -519,7 +519,12 @@ fn elastic_only(grounds: &Grounds) -> String {
         None => "elastic",
     };
     let wear = if grounds.wears { "" } else { "no wear, " };
-    format!("{wear}isothermal, {elastic}{initiation}")
+    let heat = if grounds.heats {
+        "film and friction isothermal"
+    } else {
+        "isothermal"
+    };
+    format!("{wear}{heat}, {elastic}{initiation}")
 }
 
 #[cfg(test)]

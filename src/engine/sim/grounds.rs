@@ -57,6 +57,8 @@ pub struct Grounds {
     pub reference: ReferenceLife,
     /// Whether cycles count by their damage.
     pub by_damage: bool,
+    /// Whether surface temperatures are computed.
+    pub heats: bool,
     /// Whether a surface wears.
     pub wears: bool,
     /// Hardness of the softer body at which it flows, Pa; `None`: both are elastic.

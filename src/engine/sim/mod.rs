@@ -12,6 +12,7 @@ mod fields;
 mod frame;
 mod grounds;
 mod headline;
+mod heat_stage;
 mod knob;
 mod last_period;
 mod lubrication;

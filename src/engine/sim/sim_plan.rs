@@ -269,6 +269,7 @@ fn grounds_of(scene: &Scene, decided: &Plan) -> Grounds {
             Some(hardness_pa) if hardness_pa.is_finite() => Some(Strength::of(hardness_pa)),
             _ => strength::by_young(body.young_pa),
         }),
+        heats: scene.heat.is_some(),
         wears: scene.wear.is_some(),
         hardness_pa: scene.hardness_pa(),
         cutoffs_m: scene.surfaces().map(Surface::cutoff_short_m),

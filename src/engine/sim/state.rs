@@ -12,6 +12,7 @@ use super::counting::Counting;
 use super::counting_spec::counting_spec;
 use super::drive::Drive;
 use super::fatigue_stage::LifeStage;
+use super::heat_stage::{HeatStage, Warmth};
 use super::measure::Measured;
 use super::motion::Travel;
 use super::orbit::Orbit;
@@ -69,6 +70,9 @@ pub struct State {
     /// What both bodies have lost by wear; `None`: nothing wears.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) worn: Option<Worn>,
+    /// How warm the surfaces are; `None`: nobody asks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) warmth: Option<Warmth>,
     /// What each block of passages has come to, on the axis of loading cycles.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) ages: Vec<AgePoint>,
@@ -103,7 +107,7 @@ pub struct State {
 
 saved! {
     State {
-        parts: motion, yielded, worn, counting, life, totals, orbit, pace;
+        parts: motion, yielded, worn, warmth, counting, life, totals, orbit, pace;
         room: ages;
         free: nodes, contact, drive, targets, watched, smooth, reference, phase, metrics, coarser, mesh_errors, distance,
             next_volume, step, time_s, start_up_steps;
@@ -163,6 +167,7 @@ impl State {
             targets,
             motion: Travel::new(),
             yielded: yields.then(|| Yielded::new(&fine, scene.softer(), repeats)),
+            warmth: work.heat.as_ref().map(HeatStage::cold),
             ages: Vec::with_capacity(match &scene.age {
                 Some(_) => MOST_JUMPS as usize + 2,
                 None => 0,

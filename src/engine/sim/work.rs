@@ -8,6 +8,7 @@ use std::sync::Arc;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::SimError;
+use super::heat_stage::HeatStage;
 use super::measure::RowSums;
 use super::roughness::Roughness;
 use super::sim_plan::SimPlan;
@@ -23,6 +24,7 @@ pub(super) struct Work {
     pub(super) solver: Solver,
     pub(super) roughness: Roughness,
     pub(super) stress: Option<StressStage>,
+    pub(super) heat: Option<HeatStage>,
     pub(super) traction: Vec<f64>,
     pub(super) row_sums: Vec<RowSums>,
     /// First guesses of a step: from a period ago, and extrapolated.
@@ -47,6 +49,7 @@ impl Work {
             solver: pool.install(|| plan.solver(nodes)),
             roughness: roughness(plan, &fine),
             stress,
+            heat: HeatStage::new(&plan.scene, &fine, plan.scaling.a_m),
             traction: vec![0.0; fine.len()],
             row_sums: vec![RowSums::default(); fine.ny],
             guesses: [vec![0.0; fine.len()], vec![0.0; fine.len()]],

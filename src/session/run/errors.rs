@@ -89,7 +89,7 @@ pub(super) fn coarser(scene: &Scene, plan: &Plan) -> Result<Scene, NoEstimate> {
     // Two orders would be no sequence.
     coarse.numerics.order = plan.order.into();
     coarse.record = None;
-    Ok(coarse.as_new())
+    Ok(coarse.mechanical())
 }
 
 /// Of the extremes, for an observed order of 1.3: 3/(2^1.3 − 1).

@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use super::super::table::{MarkdownTable, figure};
 use super::tried::{Judged, Tried};
 use super::{Evidence, EvidenceRow};
+use asperity_engine::physics::heat_estimate::inlet_factor;
 use asperity_engine::scene::CycleBasis;
 
 /// What a disagreement without a known cause is told by.
@@ -310,12 +311,7 @@ pub(super) fn verdict(all: &[Judged]) -> String {
 }
 
 fn push_left_out(text: &mut String) {
-    /// C = 1/(1 + 0.241 (1 + 14.8 Z^0.83) L_T^0.64), Z = |S|/2.
-    fn factor(slide_roll: f64, thermal: f64) -> f64 {
-        let sliding = 1.0 + 14.8 * (0.5 * slide_roll.abs()).powf(0.83);
-        1.0 / (1.0 + 0.241 * sliding * thermal.powf(0.64))
-    }
-    let [rolling, half, one] = [0.0, 0.5, 1.0].map(|s| factor(s, 0.1));
+    let [rolling, half, one] = [0.0, 0.5, 1.0].map(|s| inlet_factor(s, 0.1));
     let _ = writeln!(
         text,
         "\n## Left out\n\n\

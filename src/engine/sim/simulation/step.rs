@@ -74,6 +74,9 @@ pub(super) fn forget_passage(plan: &SimPlan, state: &mut State) {
     if let Some(worn) = &mut state.worn {
         worn.forget_block();
     }
+    if let Some(warmth) = &mut state.warmth {
+        warmth.forget();
+    }
     state.orbit.restart();
     let window = state.orbit.life_window(plan.decided.passage_a);
     if let Some(life) = &mut state.life {

@@ -9,6 +9,7 @@ use crate::physics::cycles::BodyId;
 use crate::physics::iso281::{a_iso_radial_ball, kappa_from_lambda};
 use crate::sim::caution;
 use crate::sim::fatigue_stage::LifeStage;
+use crate::sim::heat_stage::{self, Warmth};
 use crate::sim::summary::PitStart;
 use crate::sim::{LifeEstimate, Stats, Summary};
 
@@ -47,7 +48,27 @@ pub(super) fn summary(sim: View, stats: &Stats) -> Summary {
         ages: sim.state.ages.clone(),
         ..life
     };
-    sim.state.totals.summary(m, known)
+    with_heat(sim, sim.state.totals.summary(m, known))
+}
+
+/// With what is known of temperatures.
+fn with_heat(sim: View, summary: Summary) -> Summary {
+    let scene = &sim.plan.scene;
+    let warmed = sim.state.warmth.as_ref().and_then(Warmth::warmed);
+    let (Some(heat), Some(warmed)) = (&scene.heat, warmed) else {
+        return summary;
+    };
+    let friction = summary.friction_coefficient;
+    let blok = heat_stage::blok(scene, friction, summary.a_m, summary.p_hertz_pa);
+    Summary {
+        flash_temperature_max_k: Some(warmed.greatest_k),
+        flash_temperature_mean_k: Some(warmed.mean_k),
+        contact_temperature_max_k: Some(heat.bulk_k + warmed.greatest_k),
+        heat_share_1: Some(warmed.share_1),
+        flash_temperature_blok_k: Some(blok).filter(|blok| blok.is_finite()),
+        inlet_heating_factor: heat_stage::inlet(scene),
+        ..summary
+    }
 }
 
 /// What a summary says of the life.

@@ -2,8 +2,10 @@
 
 use super::present::{has_reference_of_now, publish_lubrication, stress_error_now};
 use crate::physics::felt::felt_contacts;
+use crate::plan::TimeDependence;
 use crate::sim::counting::{contacts, felt_at_points};
 use crate::sim::fatigue_stage::Now;
+use crate::sim::heat_stage::Heating;
 use crate::sim::measure::{Fields, Measured, measure};
 use crate::sim::roughness::Roughness;
 use crate::sim::sim_plan::SimPlan;
@@ -38,9 +40,35 @@ pub(super) fn watch(
         }
     }
     if looks {
+        heat(plan, state, work, attempted);
         sample_life(plan, state, work, stats);
     }
     publish(plan, state, work, attempted, &measured);
+}
+
+/// How warm the surfaces are at the end of the step. While a knob walks they stay as they are: each of its steps would need tables of its own.
+fn heat(plan: &SimPlan, state: &mut State, work: &mut Work, attempted: &Attempted) {
+    let (Some(stage), Some(warmth)) = (&mut work.heat, &mut state.warmth) else {
+        return;
+    };
+    if state.drive.is_walking() || attempted.nodes == 0.0 {
+        return;
+    }
+    let u_m_s = state.drive.get(Knob::EntrainmentMS).now;
+    let s = state.drive.get(Knob::SlideRoll).now;
+    let size = plan.size_now(&state.drive);
+    let is_steady = matches!(plan.decided.time_dependence, TimeDependence::Steady { .. });
+    let step = Heating {
+        grid: &work.solver.grid,
+        pressure: &state.contact.pressure,
+        film: &state.contact.film,
+        traction: &work.traction,
+        dt_s: attempted.nodes * work.solver.grid.dx * plan.scaling.a_m / u_m_s,
+        speeds_m_s: [u_m_s * (1.0 - 0.5 * s), u_m_s * (1.0 + 0.5 * s)],
+        ellipse: (size, size * plan.scaling.b_over_a),
+        steady: is_steady && state.phase == Phase::Passage,
+    };
+    work.pool.install(|| stage.advance(plan, warmth, &step));
 }
 
 /// The volume under the slice's surface, with the counts up to it.
