@@ -30,8 +30,10 @@ use symbols::{Symbols, exponentials, n_exponentials, weights_before};
 
 /// Steps between two clearings of the padding.
 const DAMP_EVERY: u32 = 16;
+/// Decay over a step, as an exponent, beyond which a mode has nothing left to say after it.
+const GONE: f64 = 16.0;
 /// Relative residual of d, and most iterations.
-const RESIDUAL: f64 = 1e-5;
+const RESIDUAL: f64 = 1e-4;
 const MOST_ITERATIONS: usize = 60;
 
 /// Thermal properties of a body.
@@ -130,7 +132,9 @@ pub struct Heat {
     pub rise: [Vec<f64>; 2],
     /// q_1, W/m².
     pub into_body_1: Vec<f64>,
-    waves: Vec<Complex<f64>>,
+    /// Waves of H_1 and H_2, and of Q.
+    past: [Vec<Complex<f64>>; 2],
+    made: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
     fields: [Vec<f64>; 8],
 }
@@ -142,7 +146,8 @@ impl Heat {
         let field = || vec![0.0; grid.len()];
         let waves = || vec![Complex::default(); plane.len()];
         Self {
-            waves: waves(),
+            past: [waves(), waves()],
+            made: waves(),
             scratch: waves(),
             plane,
             length_m,
@@ -186,41 +191,32 @@ impl Heat {
         let Some((tables, _)) = self.tables.take() else {
             return;
         };
-        for body in [0, 1] {
-            history(
-                &tables[body],
-                &self.exponentials.1,
-                step.dt_s,
-                &mut state.bodies[body],
-                &mut self.waves,
-            );
-            self.plane.back(&mut self.waves, &mut self.rise[body]);
+        let mut past = std::mem::take(&mut self.past);
+        for (body, waves) in past.iter_mut().enumerate() {
+            let own = &mut state.bodies[body];
+            history(&tables[body], &self.exponentials.1, step.dt_s, own, waves);
         }
-        self.share(state, step, &tables);
-        for body in [0, 1] {
+        self.share(state, step, &tables, &past);
+        // T_i = H_i + A_i (Q/2 ± d), of which the waves of Q and d are known.
+        self.plane.forward(&state.exchange, &mut self.scratch);
+        for (body, mut waves) in past.into_iter().enumerate() {
             let sign = if body == 0 { 1.0 } else { -1.0 };
-            let past = &mut state.bodies[body];
-            std::mem::swap(&mut past.last, &mut past.before);
-            let entering = &mut self.fields[0];
-            for ((to, made), d) in entering.iter_mut().zip(step.made).zip(&state.exchange) {
-                *to = 0.5 * made + sign * d;
+            let own = &mut state.bodies[body];
+            std::mem::swap(&mut own.last, &mut own.before);
+            let entering = self.made.iter().zip(&self.scratch);
+            let heat = waves.iter_mut().zip(&mut own.last.0);
+            for (((made, d), symbol), (wave, q)) in entering.zip(&tables[body].own).zip(heat) {
+                *q = made * 0.5 + d * sign;
+                *wave += *q * symbol;
             }
-            if body == 0 {
-                self.into_body_1.clone_from(entering);
-            }
-            self.plane.forward(&self.fields[0], &mut past.last.0);
-            for ((to, q), own) in self
-                .waves
-                .iter_mut()
-                .zip(&past.last.0)
-                .zip(&tables[body].own)
-            {
-                *to = q * own;
-            }
-            self.plane.back(&mut self.waves, &mut self.fields[1]);
-            for (rise, own) in self.rise[body].iter_mut().zip(&self.fields[1]) {
-                *rise += own;
-            }
+            self.plane.back(&mut waves, &mut self.rise[body]);
+            self.past[body] = waves;
+        }
+        for ((to, made), d) in (self.into_body_1.iter_mut())
+            .zip(step.made)
+            .zip(&state.exchange)
+        {
+            *to = 0.5 * made + d;
         }
         let [v1, v2] = step.speeds_m_s;
         self.tables = Some((tables, [v1, v2, step.dt_s]));
@@ -263,8 +259,14 @@ impl Heat {
     }
 
     /// d of this step into the state, by BiCGStab preconditioned by the diagonal.
-    fn share(&mut self, state: &mut HeatState, step: &HeatStep, tables: &[Symbols; 2]) {
-        // Fields: 0 x, 1 A x, 2 r, 3 r0, 4 p, 5 v, 6 s or its preconditioned one, 7 t.
+    fn share(
+        &mut self,
+        state: &mut HeatState,
+        step: &HeatStep,
+        tables: &[Symbols; 2],
+        past: &[Vec<Complex<f64>>; 2],
+    ) {
+        // Fields: 0 x, 2 r, 3 r0, 4 p, 5 v, 6 s or its preconditioned one, 7 t.
         let diagonal = {
             let sums = tables.iter().map(|table| {
                 let n = table.own.len() as f64;
@@ -272,27 +274,20 @@ impl Heat {
             });
             sums.sum::<f64>()
         };
-        // Right-hand side: H2 − H1 + (A2 − A1) Q/2.
-        self.plane.forward(step.made, &mut self.scratch);
-        let pairs = tables[0].own.iter().zip(&tables[1].own);
-        for (wave, (one, two)) in self.scratch.iter_mut().zip(pairs) {
-            *wave *= 0.5 * (two - one);
+        // Right-hand side less the operator on the first guess: H2 − H1 + (A2 − A1) Q/2 − (A1 + A2 + h/k) d.
+        self.plane.forward(step.made, &mut self.made);
+        self.plane.forward(&state.exchange, &mut self.scratch);
+        let symbols = tables[0].own.iter().zip(&tables[1].own);
+        let heat = self.scratch.iter_mut().zip(&self.made);
+        let histories = past[0].iter().zip(&past[1]);
+        for (((d, made), (one, two)), (first, second)) in heat.zip(symbols).zip(histories) {
+            *d = second - first + made * 0.5 * (two - one) - *d * (one + two);
         }
         self.plane.back(&mut self.scratch, &mut self.fields[2]);
-        for ((r, one), two) in self.fields[2]
-            .iter_mut()
-            .zip(&self.rise[0])
-            .zip(&self.rise[1])
-        {
-            *r += two - one;
-        }
-        let size = dot(&self.fields[2], &self.fields[2]).sqrt();
-        let heat = dot(step.made, step.made).sqrt() * diagonal;
-        let goal = RESIDUAL * size.max(heat);
+        let goal = RESIDUAL * dot(step.made, step.made).sqrt() * diagonal;
         self.fields[0].clone_from(&state.exchange);
-        self.both(tables, 0, 1);
         for n in 0..self.fields[2].len() {
-            self.fields[2][n] -= self.fields[1][n] + step.resistance[n] * self.fields[0][n];
+            self.fields[2][n] -= step.resistance[n] * self.fields[0][n];
         }
         self.fields[3] = self.fields[2].clone();
         self.fields[4].fill(0.0);
@@ -373,6 +368,10 @@ fn history(
             let fade = (-slow).exp();
             for (n, u) in mode.0.iter_mut().enumerate() {
                 let [decay, turn, nu] = table.decay[n];
+                if nu.re + slow > GONE {
+                    *u = Complex::default();
+                    continue;
+                }
                 // e^{−ν} = e^{−μ} e^{i k U Δt}.
                 let [here, there] = weights_before(nu + slow, decay * turn.conj() * fade);
                 let turned = before.0[n] * turn;

@@ -118,7 +118,8 @@ pub(super) fn weights_before(z: Complex<f64>, e: Complex<f64>) -> [Complex<f64>;
         let first = 0.5 - z / 3.0 + z * z / 8.0;
         return [whole - first, first];
     }
-    let whole = (1.0 - e) / z;
-    let first = (whole - e) / z;
+    let over = z.conj() / z.norm_sqr();
+    let whole = (1.0 - e) * over;
+    let first = (whole - e) * over;
     [whole - first, first]
 }
