@@ -217,6 +217,46 @@ body_1.surface.phase_deg = 0.0
 stress.depths = 16
 ";
 
+/// A scene that asks for wear and heat has columns for them, the last ones; all others are those of the scene that does not.
+#[test]
+fn what_is_asked_for_has_its_columns() {
+    let more = "stress.depths = 12\nwear.coefficient_1_per_pa = 1e-18\nheat.bulk_k = 350.0";
+    let tables = [TINY.to_owned(), TINY.replace("stress.depths = 12", more)].map(|text| {
+        let sweep = sweep(&text);
+        let csv = whole(&sweep).csv(&sweep).unwrap();
+        let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+        csv.lines().map(cells).collect::<Vec<_>>()
+    });
+    let [plain, asked] = tables;
+    let n = plain[0].len();
+    let names = [
+        "cycles",
+        "wear_depth_1_m",
+        "flash_temperature_max_k",
+        "flash_temperature_mean_k",
+        "contact_temperature_max_k",
+        "heat_share_1",
+        "flash_temperature_blok_k",
+    ];
+    assert_eq!(asked[0][n..], names);
+    let digest = plain[0].iter().position(|name| name == "scene").unwrap();
+    let sliding = plain[0]
+        .iter()
+        .position(|name| name == "motion.slide_roll")
+        .unwrap();
+    for (plain, asked) in plain.iter().zip(&asked) {
+        for (k, (one, other)) in plain.iter().zip(asked).enumerate() {
+            assert!(one == other || k == digest, "{one} {other}");
+        }
+    }
+    for row in &asked[1..] {
+        let value = |k: usize| row[n + k].parse::<f64>().unwrap();
+        let slides = row[sliding].parse::<f64>().unwrap() > 0.0;
+        assert_eq!(value(0), 1.0);
+        assert_eq!(value(1) > 0.0 && value(2) > 0.0, slides, "{row:?}");
+    }
+}
+
 #[test]
 fn life_falls_with_sliding_and_more_for_the_slower_body() {
     let sweep = sweep(&format!(

@@ -211,7 +211,8 @@ fn what_cannot_be_followed_is_refused() {
         error.to_string()
     };
     let wear = "wear.coefficient_1_per_pa=1e-18";
-    let cases: [(&[&str], &str); 4] = [
+    let cases: [(&[&str], &str); 5] = [
+        (&[wear, "motion.slide_roll=2"], "stands"),
         (&["age.cycles=1e6"], "[wear]"),
         (&[wear, "age.cycles=0"], "age.cycles"),
         (

@@ -407,7 +407,7 @@ impl Plan {
         let domain = &self.domain;
         let step_a = self.dt_s * self.speeds_m_s.iter().sum::<f64>().abs() / 2.0 / self.hertz.a_m;
         let crossing = (domain.x_max_a - domain.x_min_a) / step_a;
-        Cost::new(cost::CostInput {
+        let cost = Cost::new(cost::CostInput {
             kind: self.kind,
             nodes: self.domain.nodes,
             rows: match self.symmetry {
@@ -420,6 +420,11 @@ impl Plan {
                 + START_UP_PASSAGES * self.steps_per_passage as f64)
                 as u64,
             volumes,
-        })
+        });
+        if self.heats {
+            cost.with_heat(self.kind, self.domain.nodes, self.steps)
+        } else {
+            cost
+        }
     }
 }

@@ -12,7 +12,7 @@ use crate::scene::{Age, Scene};
 /// Wear as the plan has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WearPlan {
-    /// Greatest depth that a loading cycle can take from body 1 and 2 if all load is on contacts, m; infinite: a body at rest.
+    /// Greatest depth that a loading cycle can take from body 1 and 2 if all load is on contacts, m.
     pub most_a_cycle_m: [f64; 2],
     /// Loading cycles that are asked for.
     pub age: Option<Age>,
@@ -42,8 +42,7 @@ impl WearPlan {
             depth_m if depth_m > 0.0 && depth_m.is_finite() => {
                 format!("{} m", sig(depth_m, 3))
             }
-            0.0 => length(0.0),
-            _ => "without bound: it stands".to_owned(),
+            _ => length(0.0),
         });
         let most = format!(
             "wear where asperities touch: at most {one} and {two} a loading cycle of body 1 and 2"

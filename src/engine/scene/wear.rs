@@ -62,6 +62,20 @@ impl Scene {
             ));
         }
         let coefficients = self.wear.unwrap_or_default().coefficients_per_pa();
+        for (body, (speed, coefficient)) in
+            (1..).zip(self.speeds_m_s().into_iter().zip(coefficients))
+        {
+            if coefficient > 0.0 && speed == 0.0 {
+                return Err(SceneError::value(
+                    format!("wear.coefficient_{body}_per_pa"),
+                    format!("{coefficient:e}"),
+                    format!(
+                        "0 at motion.slide_roll = {}: body {body} stands in the contact and has no loading cycles",
+                        self.motion.slide_roll
+                    ),
+                ));
+            }
+        }
         for (body, (surface, coefficient)) in
             (1..).zip(self.surfaces().into_iter().zip(coefficients))
         {

@@ -63,11 +63,8 @@ pub(super) struct Heating<'a> {
 }
 
 impl HeatStage {
-    /// `None`: the scene asks for no heat. A page has no room for it.
+    /// `None`: the scene asks for no heat.
     pub(super) fn new(scene: &Scene, grid: &Grid, a_m: f64) -> Option<Self> {
-        if cfg!(target_arch = "wasm32") {
-            return None;
-        }
         let asked = scene.heat?;
         let bodies = [&scene.body_1, &scene.body_2].map(|body| {
             let heat = body.heat.unwrap_or_default();

@@ -205,7 +205,11 @@ impl Worn {
                 (Some(_), _) => greatest(&skin.depth),
                 (None, None) => 0.0,
                 (None, Some(begun)) => {
-                    greatest(&skin.sum) * skin.share(travelled[body] - begun[body])
+                    let distance = travelled[body] - begun[body];
+                    if distance == 0.0 {
+                        return None;
+                    }
+                    greatest(&skin.sum) * skin.share(distance)
                 }
             })
         })

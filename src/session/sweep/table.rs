@@ -77,6 +77,13 @@ const COLUMNS: [&[(&str, InRecord)]; 7] = [
     ],
 ];
 
+/// Last columns, each there where a case has its number: scenes that ask for no wear and no heat have none of them.
+const ASKED: &[(&str, InRecord)] = optional! {
+    cycles wear_depth_1_m wear_depth_2_m
+    flash_temperature_max_k flash_temperature_mean_k contact_temperature_max_k heat_share_1
+    flash_temperature_blok_k inlet_heating_factor
+};
+
 fn own_columns() -> impl Iterator<Item = &'static (&'static str, InRecord)> {
     COLUMNS.into_iter().flatten()
 }
@@ -90,7 +97,10 @@ fn columns() -> impl Iterator<Item = &'static str> {
 
 /// A record's number in the column of that name.
 fn number(record: &CaseRecord, name: &str) -> Option<f64> {
-    match own_columns().find(|(column, _)| *column == name) {
+    match own_columns()
+        .chain(ASKED)
+        .find(|(column, _)| *column == name)
+    {
         Some((_, of)) => of(record),
         None => *record.summary.by_itself.get(name)?,
     }
@@ -154,9 +164,18 @@ impl Rows {
         if let Some(values) = super::path::column(&sweep.path, name) {
             return Some(values);
         }
-        let column = columns().find(|column| *column == name)?;
+        let asked = ASKED.iter().map(|(name, _)| *name);
+        let column = columns().chain(asked).find(|column| *column == name)?;
         let cell = |record: &CaseRecord| number(record, column).unwrap_or(f64::NAN);
         Some(self.records.iter().map(cell).collect())
+    }
+
+    /// Names of all columns of numbers that this table has.
+    fn found_columns(&self) -> impl Iterator<Item = &'static str> + '_ {
+        let asked = ASKED
+            .iter()
+            .filter(|(_, of)| self.records.iter().any(|r| of(r).is_some()));
+        columns().chain(asked.map(|(name, _)| *name))
     }
 
     /// The table.
@@ -169,17 +188,20 @@ impl Rows {
             .chain(super::path::columns(&sweep.path).map(str::to_owned))
             .chain(sweep.axes.iter().map(|axis| axis.key.clone()))
             .chain(["scene", "began", "end"].map(str::to_owned))
-            .chain(columns().map(|column| sweep.header(column).to_owned()));
+            .chain(
+                self.found_columns()
+                    .map(|column| sweep.header(column).to_owned()),
+            );
         let mut text = csv_line(head);
         let mut row = Cells::default();
         for record in &self.records {
-            Self::row(sweep, record, &mut row)?;
+            self.row(sweep, record, &mut row)?;
             text.push_str(&csv_line(row.iter()));
         }
         Ok(text)
     }
 
-    fn row(sweep: &Sweep, record: &CaseRecord, row: &mut Cells) -> Result<(), SweepError> {
+    fn row(&self, sweep: &Sweep, record: &CaseRecord, row: &mut Cells) -> Result<(), SweepError> {
         let scene = sweep.scene(record.index)?;
         let scene = toml::to_string(&scene).unwrap_or_default();
         begin_row(row, sweep, record.index);
@@ -194,7 +216,7 @@ impl Rows {
             CaseEnd::NotConverged => "not_converged",
             CaseEnd::Stalled => "stalled",
         });
-        for column in columns() {
+        for column in self.found_columns() {
             row.optional(number(record, column));
         }
         Ok(())

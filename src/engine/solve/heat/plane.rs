@@ -1,4 +1,4 @@
-//! Fields of the domain as waves of a padded one.
+//! Fields of the domain as waves of a padded one. Part of `heat.rs`.
 
 use std::sync::Arc;
 
