@@ -518,8 +518,12 @@ fn elastic_only(grounds: &Grounds) -> String {
         Some(_) => "elastic below surfaces that flow at their hardness",
         None => "elastic",
     };
-    let wear = if grounds.wears { "" } else { "no wear, " };
-    let heat = if grounds.heats {
+    let wear = if grounds.beside.wears {
+        ""
+    } else {
+        "no wear, "
+    };
+    let heat = if grounds.beside.heats {
         "film and friction isothermal"
     } else {
         "isothermal"

@@ -14,6 +14,15 @@ pub enum ReferenceLife {
     ForEver,
 }
 
+/// What a scene may ask for beside contact, film and stress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Beside {
+    /// Whether surface temperatures are computed.
+    pub heats: bool,
+    /// Whether a surface wears.
+    pub wears: bool,
+}
+
 /// What cautions are drawn from beside the scalars of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Grounds {
@@ -57,10 +66,8 @@ pub struct Grounds {
     pub reference: ReferenceLife,
     /// Whether cycles count by their damage.
     pub by_damage: bool,
-    /// Whether surface temperatures are computed.
-    pub heats: bool,
-    /// Whether a surface wears.
-    pub wears: bool,
+    /// What the scene asks for beside contact, film and stress.
+    pub beside: Beside,
     /// Hardness of the softer body at which it flows, Pa; `None`: both are elastic.
     pub hardness_pa: Option<f64>,
     /// Part of all that has flowed that did so in the last passage (or period); `None`: nothing has.

@@ -48,7 +48,7 @@ pub use error::{SimError, StepError, Unsolved};
 pub use estimates::{LifeDetail, LifeEstimate, MeshErrors, Repeat, Rhythm};
 pub use fields::{DamageBlock, Follow, MaterialPoint, PassedPeak, StressPlane, StressSlice};
 pub use frame::{CATALOGUE, Dimension, Frame, Metrics, Over, Quantity, Reading, Stage, named};
-pub use grounds::Grounds;
+pub use grounds::{Beside, Grounds};
 pub use headline::{Cause, Headline};
 pub use lubrication::LubricationRegime;
 pub use simulation::{Simulation, head_start};

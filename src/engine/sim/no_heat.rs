@@ -58,6 +58,7 @@ impl HeatStage {
     }
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as in heat_stage.rs")]
 impl Warmth {
     pub(super) fn forget(&mut self) {
         match *self {}

@@ -1,5 +1,6 @@
 //! What follows from the scene and is the same at every step: its plan, scales, laws and tolerances.
 
+use super::Beside;
 use super::Grounds;
 use super::orbit::LONGEST;
 use super::pace::Stepping;
@@ -269,8 +270,10 @@ fn grounds_of(scene: &Scene, decided: &Plan) -> Grounds {
             Some(hardness_pa) if hardness_pa.is_finite() => Some(Strength::of(hardness_pa)),
             _ => strength::by_young(body.young_pa),
         }),
-        heats: scene.heat.is_some(),
-        wears: scene.wear.is_some(),
+        beside: Beside {
+            heats: scene.heat.is_some(),
+            wears: scene.wear.is_some(),
+        },
         hardness_pa: scene.hardness_pa(),
         cutoffs_m: scene.surfaces().map(Surface::cutoff_short_m),
         maps: scene.surfaces().map(Surface::map_doubts),

@@ -289,7 +289,8 @@ impl Heat {
         for n in 0..self.fields[2].len() {
             self.fields[2][n] -= step.resistance[n] * self.fields[0][n];
         }
-        self.fields[3] = self.fields[2].clone();
+        let (low, high) = self.fields.split_at_mut(3);
+        high[0].clone_from(&low[2]);
         self.fields[4].fill(0.0);
         self.fields[5].fill(0.0);
         let (mut rho, mut alpha, mut omega) = (1.0, 1.0, 1.0);

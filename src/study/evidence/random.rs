@@ -240,7 +240,9 @@ mod tests {
             not_compared: None,
             why: None,
         };
-        MadeRatio::judge(&claim, ratios).unwrap().verdict
+        MadeRatio::judge(&claim, ratios)
+            .expect("two and more")
+            .verdict
     }
 
     /// Five numbers whose mean and standard error are known: e^0.5 and 0.1, t = 2.132.
@@ -250,7 +252,7 @@ mod tests {
         let spread = [-1.0, -1.0, 0.0, 1.0, 1.0].map(|e| 0.5 + s * e);
         let pairs = spread.map(f64::exp);
         let claim = |kind, ratio| judged(kind, ratio, &pairs);
-        let found = Scatter::of(pairs).unwrap();
+        let found = Scatter::of(pairs).expect("there are five");
         assert!((found.of_mean().ln() - 0.1).abs() < 1e-12);
         // The range is 1.33 to 2.04.
         assert_eq!(claim(Comparison::Rank, None), Verdict::Met);

@@ -78,7 +78,7 @@ pub(super) fn push_experiment(
         claims.rows.push(row);
     }
     let _ = write!(text, "\n{}\n{}", points.markdown(), claims.markdown());
-    failures.iter().for_each(|failure| text.push_str(failure));
+    text.push_str(&failures.concat());
     if let Some(point) = tried.experiment.point.first()
         && let Ok(keys) = made.keys(point, ways[0], 1)
     {
