@@ -1,4 +1,4 @@
-//! How heat of a step, and of the steps before, warms a half-space that moves: in wave space.
+//! How heat of a step, and of the steps before, warms a half-space that moves: in wave space. Part of `heat.rs`.
 //!
 //! ```text
 //! T^(t) = (√κ/k_c) ∫_0^∞ q^(t − s) e^{−μ s}/√(π s) ds,   μ = κ|k|² + i k_x V             (Carslaw & Jaeger 1959, by waves)
