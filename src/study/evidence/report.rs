@@ -317,8 +317,8 @@ fn push_left_out(text: &mut String) {
         "\n## Left out\n\n\
          - Inlet shear heating (Wilson & Sheu): the film here is isothermal. By their factor it would be {rolling:.2}, {half:.2} \
          and {one:.2} times as thick at S = 0, 0.5 and 1 where L_T = 0.1.\n\
-         - Mass lost by wear (Brandão et al., FZG type C) and the trends with wear of both papers of Morales-Espejel: a run \
-         ends at initiation, with the surfaces of its beginning.\n\
+         - Mass lost by wear (Brandão et al., FZG type C) and the trends with wear of both papers of Morales-Espejel: the \
+         study runs with new surfaces.\n\
          - ISO/TS 6336-22: a formula for a film, not a measurement."
     );
 }
