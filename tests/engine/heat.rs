@@ -1,9 +1,8 @@
 //! Flash temperatures of whole runs against the integrals of moving sources, and that heat changes nothing else.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity_engine::plan::Plan;
-use asperity_engine::scene::{Override, Scene};
-use asperity_engine::sim::{Simulation, State, Summary};
+use crate::whole::{goes_on_bit_for_bit, run, scene, small_demonstration as demonstration};
+use asperity_engine::sim::Summary;
 
 const DRY_LINE: &str = r#"
 [contact]
@@ -25,34 +24,6 @@ error_estimate = "none"
 [heat]
 bulk_k = 300.0
 "#;
-
-fn scene(base: &str, sets: &[String]) -> Scene {
-    let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("heat.toml");
-    std::fs::write(&path, base).unwrap();
-    Scene::load_with(path.to_str().unwrap(), &sets).unwrap()
-}
-
-fn demonstration(sets: &[&str]) -> Scene {
-    let small = ["grid.nodes=65", "stress.depths=8", "record=none"];
-    let sets: Vec<Override> = (small.iter().chain(sets))
-        .map(|s| s.parse().unwrap())
-        .collect();
-    Scene::load_with("demonstration_quick", &sets).unwrap()
-}
-
-fn simulation(scene: &Scene) -> Simulation {
-    Simulation::new(scene, Plan::new(scene).unwrap(), 2).unwrap()
-}
-
-fn run(scene: &Scene) -> Summary {
-    let mut sim = simulation(scene);
-    while !sim.is_done() {
-        sim.step().unwrap();
-    }
-    sim.summary()
-}
 
 /// Both bodies of a dry smooth line share q0 = μ p_h |U2 − U1| of an elliptic band at equal temperatures: share of body 1, greatest
 /// and mean rise in q0 b/k by quadrature of the integrals, at three pairs of Péclet numbers, on three meshes, with the flow
@@ -131,27 +102,5 @@ fn heat_changes_nothing_else() {
 /// A run with heat that is saved and taken up again ends as the uninterrupted one.
 #[test]
 fn a_warm_run_goes_on_bit_for_bit() {
-    let scene = demonstration(&["heat.bulk_k=353"]);
-    let mut whole = simulation(&scene);
-    let mut others: Vec<Simulation> = Vec::new();
-    let mut steps = 0;
-    while !whole.is_done() {
-        if [30, 100, 171].contains(&steps) {
-            let text = serde_json::to_string(&whole.save()).unwrap();
-            let state: State = serde_json::from_str(&text).unwrap();
-            let mut next = simulation(&scene);
-            next.restore(&state).unwrap();
-            next.count_from(*whole.stats()).unwrap();
-            others.push(next);
-        }
-        whole.step().unwrap();
-        steps += 1;
-    }
-    assert_eq!(others.len(), 3, "{steps}");
-    for mut other in others {
-        while !other.is_done() {
-            other.step().unwrap();
-        }
-        assert_eq!(whole.summary(), other.summary());
-    }
+    goes_on_bit_for_bit(&demonstration(&["heat.bulk_k=353"]), &[30, 100, 171]);
 }

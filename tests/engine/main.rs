@@ -32,6 +32,8 @@ mod simulation;
 mod stepping;
 mod surface_files;
 mod wear;
+#[path = "../common/whole.rs"]
+mod whole;
 mod work_counters;
 mod yielding;
 mod yielding_steps;

@@ -1,9 +1,9 @@
 //! Wear against closed forms, ageing against its own tolerance, and what is refused.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use asperity_engine::plan::Plan;
+use crate::whole::{goes_on_bit_for_bit, run, scene, small_demonstration};
 use asperity_engine::scene::{Override, Scene};
-use asperity_engine::sim::{Simulation, State, Summary};
+use asperity_engine::sim::Summary;
 
 const DRY_LINE: &str = r#"
 [contact]
@@ -27,26 +27,6 @@ coefficient_1_per_pa = 1e-18
 coefficient_2_per_pa = 1e-18
 "#;
 
-fn with(base: &str, sets: &[&str]) -> Scene {
-    let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("wear.toml");
-    std::fs::write(&path, base).unwrap();
-    Scene::load_with(path.to_str().unwrap(), &sets).unwrap()
-}
-
-fn simulation(scene: &Scene) -> Simulation {
-    Simulation::new(scene, Plan::new(scene).unwrap(), 2).unwrap()
-}
-
-fn run(scene: &Scene) -> Summary {
-    let mut sim = simulation(scene);
-    while !sim.is_done() {
-        sim.step().unwrap();
-    }
-    sim.summary()
-}
-
 /// Dry and smooth: k (|Δu|/U_i) (π/2) p_h a of a loading cycle on each body, of a line (exact whatever the mesh, as the load is
 /// carried exactly) and on the centre line of a point (by the mesh of its pressure), for either body the faster one, and with
 /// the flow turned round. Not sliding, it does not wear.
@@ -63,8 +43,7 @@ fn smooth_bodies_lose_what_archard_says() {
                 format!("motion.slide_roll={s}"),
                 "grid.nodes=129".to_owned(),
             ];
-            let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
-            let scene = with(base, &sets);
+            let scene = scene(base, &sets);
             let found = run(&scene);
             assert_eq!(found.cycles, Some(1.0));
             let hertz = scene.hertz();
@@ -97,8 +76,8 @@ fn a_crest_is_halved_after_as_many_cycles_as_the_closed_form_says() {
             format!("grid.nodes={nodes}"),
             format!("age.tolerance={tolerance}"),
         ];
-        let sets = [&wave[..], &[&own[0], &own[1]]].concat();
-        let found = run(&with(DRY_LINE, &sets));
+        let sets = [&wave.map(str::to_owned)[..], &own].concat();
+        let found = run(&scene(DRY_LINE, &sets));
         let (first, aged) = (found.ages[0], found.ages.last().unwrap());
         let left = aged.rq_1_m / first.rq_1_m;
         println!(
@@ -115,19 +94,14 @@ fn a_crest_is_halved_after_as_many_cycles_as_the_closed_form_says() {
     }
 }
 
-const AGED: [&str; 6] = [
-    "grid.nodes=65",
-    "stress.depths=8",
-    "record=none",
+const AGED: [&str; 3] = [
     "wear.coefficient_1_per_pa=1e-18",
     "wear.coefficient_2_per_pa=2e-18",
     "age.cycles=3e6",
 ];
 
 fn demonstration(sets: &[&str]) -> Scene {
-    let sets = [&AGED[..], sets].concat();
-    let sets: Vec<Override> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    Scene::load_with("demonstration_quick", &sets).unwrap()
+    small_demonstration(&[&AGED[..], sets].concat())
 }
 
 /// Mixed lubrication with both bodies rough: depths at two tolerances are within some hundredths of those at a finer one, which
@@ -161,29 +135,7 @@ fn ageing_converges_with_its_tolerance() {
 /// An aged run that is saved and taken up again, between and within its blocks, ends as the uninterrupted one.
 #[test]
 fn an_aged_run_goes_on_bit_for_bit() {
-    let scene = demonstration(&["age.tolerance=0.08"]);
-    let mut whole = simulation(&scene);
-    let mut others: Vec<Simulation> = Vec::new();
-    let mut steps = 0;
-    while !whole.is_done() {
-        if [300, 555, 700].contains(&steps) {
-            let text = serde_json::to_string(&whole.save()).unwrap();
-            let state: State = serde_json::from_str(&text).unwrap();
-            let mut next = simulation(&scene);
-            next.restore(&state).unwrap();
-            next.count_from(*whole.stats()).unwrap();
-            others.push(next);
-        }
-        whole.step().unwrap();
-        steps += 1;
-    }
-    assert_eq!(others.len(), 3, "{steps}");
-    for mut other in others {
-        while !other.is_done() {
-            other.step().unwrap();
-        }
-        assert_eq!(whole.summary(), other.summary());
-    }
+    goes_on_bit_for_bit(&demonstration(&["age.tolerance=0.08"]), &[300, 555, 700]);
 }
 
 /// Without [age] nothing is taken off: every number of a run with [wear] is that of the run without it.
