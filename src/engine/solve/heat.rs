@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 use crate::math::grid::Grid;
 use crate::saved::{Saved, saved};
 use plane::Plane;
-use symbols::{Symbols, exponentials, n_exponentials, weights_before};
+use symbols::{Symbols, exponentials, n_exponentials};
 
 /// Steps between two clearings of the padding.
 const DAMP_EVERY: u32 = 16;
@@ -36,6 +36,8 @@ const GONE: f64 = 16.0;
 /// Relative residual of d, and most iterations.
 const RESIDUAL: f64 = 1e-4;
 const MOST_ITERATIONS: usize = 60;
+/// Waves of one task.
+const BLOCK: usize = 64;
 
 /// Thermal properties of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,23 +63,23 @@ pub struct HeatStep<'a> {
 
 /// Waves of a field.
 #[derive(Debug, Clone, PartialEq, Default)]
-struct Waves(Vec<Complex<f64>>);
+struct Waves<T>(Vec<Complex<T>>);
 
-impl Serialize for Waves {
+impl<T: Copy + Serialize> Serialize for Waves<T> {
     fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.collect_seq(self.0.iter().flat_map(|c| [c.re, c.im]))
     }
 }
 
-impl<'de> Deserialize<'de> for Waves {
+impl<'de, T: Copy + Deserialize<'de>> Deserialize<'de> for Waves<T> {
     fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let flat = Vec::<f64>::deserialize(from)?;
+        let flat = Vec::<T>::deserialize(from)?;
         let pairs = flat.chunks_exact(2).map(|c| Complex::new(c[0], c[1]));
         Ok(Self(pairs.collect()))
     }
 }
 
-impl Saved for Waves {
+impl<T: Copy> Saved for Waves<T> {
     fn check(&self, saved: &Self) -> Result<(), String> {
         if self.0.len() == saved.0.len() {
             Ok(())
@@ -111,11 +113,11 @@ saved! {
 /// One body's.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Past {
-    /// u_j.
-    modes: Vec<Waves>,
+    /// w_j u_j √κ/k_c, by blocks of waves, in each one exponential after another.
+    modes: Waves<f32>,
     /// q of the last step and of the last but one.
-    last: Waves,
-    before: Waves,
+    last: Waves<f64>,
+    before: Waves<f64>,
 }
 
 saved! {
@@ -123,20 +125,28 @@ saved! {
 }
 
 /// Temperatures, and what they are computed with.
+///
+/// A step is begun ([`Heat::begin`]), its heat shared as often as another guess of it comes ([`Heat::share`]), and committed;
+/// until then nothing of the state changes but its padding.
 pub struct Heat {
     plane: Plane,
     length_m: f64,
     bodies: [Thermal; 2],
-    tables: Option<([Symbols; 2], [f64; 3])>,
-    exponentials: (f64, Vec<[f64; 2]>),
+    tables: Option<([Symbols; 2], [f64; 4])>,
     /// Rise over the bulk of both surfaces, K.
     pub rise: [Vec<f64>; 2],
     /// q_1, W/m².
     pub into_body_1: Vec<f64>,
-    /// Waves of H_1 and H_2, and of Q.
+    /// d, W/m².
+    exchange: Vec<f64>,
+    /// Waves of H_1 and H_2, of q_1 and q_2, and of Q.
     past: [Vec<Complex<f64>>; 2],
+    entering: [Vec<Complex<f64>>; 2],
     made: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
+    warm: Vec<Complex<f64>>,
+    /// Modes at the end of the step.
+    next: [Waves<f32>; 2],
     fields: [Vec<f64>; 8],
 }
 
@@ -146,17 +156,21 @@ impl Heat {
         let plane = Plane::new(grid);
         let field = || vec![0.0; grid.len()];
         let waves = || vec![Complex::default(); plane.len()];
+        let modes = || Waves(vec![Complex::default(); plane.len() * n_exponentials()]);
         Self {
             past: [waves(), waves()],
+            entering: [waves(), waves()],
             made: waves(),
             scratch: waves(),
+            warm: waves(),
+            next: [modes(), modes()],
             plane,
             length_m,
             bodies,
             tables: None,
-            exponentials: (0.0, Vec::new()),
             rise: [field(), field()],
             into_body_1: field(),
+            exchange: field(),
             fields: std::array::from_fn(|_| field()),
         }
     }
@@ -165,7 +179,10 @@ impl Heat {
     pub fn cold(&self) -> HeatState {
         let waves = || Waves(vec![Complex::default(); self.plane.len()]);
         let past = || Past {
-            modes: (0..n_exponentials()).map(|_| waves()).collect(),
+            modes: Waves(vec![
+                Complex::default();
+                self.plane.len() * n_exponentials()
+            ]),
             last: waves(),
             before: waves(),
         };
@@ -179,116 +196,172 @@ impl Heat {
 
     /// One step: temperatures at its end in [`Heat::rise`].
     pub fn advance(&mut self, state: &mut HeatState, step: &HeatStep) {
-        self.prepare(state, step);
+        self.begin(state, step.dt_s, step.speeds_m_s);
+        self.share(step.made, step.resistance);
+        self.commit(state);
+    }
+
+    /// A step of that length and speeds: what the heat of all steps before does at its end.
+    pub fn begin(&mut self, state: &mut HeatState, dt_s: f64, speeds_m_s: [f64; 2]) {
+        if state.made_for_s == 0.0 {
+            state.made_for_s = dt_s;
+        }
+        let [v1, v2] = speeds_m_s;
+        let asked = [v1, v2, dt_s, state.made_for_s];
+        if self.tables.as_ref().is_none_or(|(_, own)| *own != asked) {
+            let mean = 0.5 * (v1 + v2);
+            let exponentials = exponentials(state.made_for_s);
+            self.tables = Some((
+                [0, 1].map(|body: usize| {
+                    let speeds = [speeds_m_s[body], mean];
+                    let thermal = self.bodies[body];
+                    Symbols::new(
+                        &self.plane,
+                        self.length_m,
+                        thermal,
+                        speeds,
+                        dt_s,
+                        &exponentials,
+                    )
+                }),
+                asked,
+            ));
+        }
         if state.since >= DAMP_EVERY {
             state.since = 0;
-            for (past, speed) in state.bodies.iter_mut().zip(step.speeds_m_s) {
-                for mode in &mut past.modes {
-                    self.plane.damp(&mut mode.0, speed >= 0.0);
+            for (past, speed) in state.bodies.iter_mut().zip(speeds_m_s) {
+                self.damp(past, speed >= 0.0, [dt_s, state.made_for_s]);
+            }
+        }
+        let Some((tables, _)) = &self.tables else {
+            return;
+        };
+        for (body, own) in state.bodies.iter().enumerate() {
+            history(
+                &tables[body],
+                own,
+                &mut self.next[body].0,
+                &mut self.past[body],
+            );
+        }
+        self.exchange.clone_from(&state.exchange);
+    }
+
+    /// Clears the padding of every mode that lives long enough to come round.
+    fn damp(&mut self, past: &mut Past, forward: bool, [dt_s, made_for_s]: [f64; 2]) {
+        let across = self.plane.shape()[0] as f64;
+        let n = n_exponentials();
+        for (mode, [rate, _]) in exponentials(made_for_s).iter().enumerate() {
+            if rate * dt_s * across > GONE {
+                continue;
+            }
+            for (waves, block) in self
+                .scratch
+                .chunks_mut(BLOCK)
+                .zip(past.modes.0.chunks(BLOCK * n))
+            {
+                let own = &block[mode * waves.len()..];
+                for (wave, own) in waves.iter_mut().zip(own) {
+                    *wave = Complex::new(own.re.into(), own.im.into());
+                }
+            }
+            self.plane.damp(&mut self.scratch, forward);
+            for (waves, block) in self
+                .scratch
+                .chunks(BLOCK)
+                .zip(past.modes.0.chunks_mut(BLOCK * n))
+            {
+                let own = &mut block[mode * waves.len()..];
+                for (wave, own) in waves.iter().zip(own) {
+                    *own = Complex::new(wave.re as f32, wave.im as f32);
                 }
             }
         }
-        state.since += 1;
-        let Some((tables, _)) = self.tables.take() else {
-            return;
-        };
-        let mut past = std::mem::take(&mut self.past);
-        for (body, waves) in past.iter_mut().enumerate() {
-            let own = &mut state.bodies[body];
-            history(&tables[body], &self.exponentials.1, step.dt_s, own, waves);
-        }
-        self.share(state, step, &tables, &past);
-        // T_i = H_i + A_i (Q/2 ± d), of which the waves of Q and d are known.
-        self.plane.forward(&state.exchange, &mut self.scratch);
-        for (body, mut waves) in past.into_iter().enumerate() {
-            let sign = if body == 0 { 1.0 } else { -1.0 };
-            let own = &mut state.bodies[body];
-            std::mem::swap(&mut own.last, &mut own.before);
-            let entering = self.made.iter().zip(&self.scratch);
-            let heat = waves.iter_mut().zip(&mut own.last.0);
-            for (((made, d), symbol), (wave, q)) in entering.zip(&tables[body].own).zip(heat) {
-                *q = made * 0.5 + d * sign;
-                *wave += *q * symbol;
-            }
-            self.plane.back(&mut waves, &mut self.rise[body]);
-            self.past[body] = waves;
-        }
-        for ((to, made), d) in (self.into_body_1.iter_mut())
-            .zip(step.made)
-            .zip(&state.exchange)
-        {
-            *to = 0.5 * made + d;
-        }
-        let [v1, v2] = step.speeds_m_s;
-        self.tables = Some((tables, [v1, v2, step.dt_s]));
     }
 
-    /// Tables for this step's length and speeds.
-    fn prepare(&mut self, state: &mut HeatState, step: &HeatStep) {
-        let [v1, v2] = step.speeds_m_s;
-        let asked = [v1, v2, step.dt_s];
-        if self.tables.as_ref().is_none_or(|(_, own)| *own != asked) {
-            let mean = 0.5 * (v1 + v2);
-            let table = |body: usize| {
-                let thermal = self.bodies[body];
-                Symbols::new(
-                    &self.plane,
-                    self.length_m,
-                    [thermal.conductivity, thermal.diffusivity],
-                    [step.speeds_m_s[body], mean],
-                    step.dt_s,
-                )
-            };
-            self.tables = Some(([table(0), table(1)], asked));
+    /// Shares the heat of the step that has begun, Q in W/m², across a film of h/k_f in m² K/W: temperatures at its end in
+    /// [`Heat::rise`].
+    pub fn share(&mut self, made: &[f64], resistance: &[f64]) {
+        let Some((tables, asked)) = self.tables.take() else {
+            return;
+        };
+        self.solve(made, resistance, &tables);
+        // T_i = H_i + A_i (Q/2 ± d), of which the waves of Q and d are known.
+        self.plane.forward(&self.exchange, &mut self.scratch);
+        for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
+            let entering = self
+                .made
+                .par_iter()
+                .zip(&self.scratch)
+                .zip(&tables[body].own);
+            (self.warm.par_iter_mut())
+                .zip(&mut self.entering[body])
+                .zip(&self.past[body])
+                .zip(entering)
+                .with_min_len(BLOCK)
+                .for_each(|(((wave, q), past), ((made, d), own))| {
+                    *q = made * 0.5 + d * sign;
+                    *wave = past + *q * own;
+                });
+            self.plane.back(&self.warm, &mut self.rise[body]);
         }
-        if state.made_for_s == 0.0 {
-            state.made_for_s = step.dt_s;
+        let heat = self.into_body_1.iter_mut().zip(made);
+        for ((to, made), d) in heat.zip(&self.exchange) {
+            *to = 0.5 * made + d;
         }
-        if self.exponentials.0 != state.made_for_s {
-            self.exponentials = (state.made_for_s, exponentials(state.made_for_s));
+        self.tables = Some((tables, asked));
+    }
+
+    /// The step has been made.
+    pub fn commit(&mut self, state: &mut HeatState) {
+        state.since += 1;
+        state.exchange.clone_from(&self.exchange);
+        for (body, own) in state.bodies.iter_mut().enumerate() {
+            std::mem::swap(&mut own.last, &mut own.before);
+            own.last.0.clone_from(&self.entering[body]);
+            std::mem::swap(&mut own.modes, &mut self.next[body]);
         }
+    }
+
+    /// Mean over waves of what heat of now does to both surfaces: what a node's own heat does to it, m² K/W.
+    pub fn own_of_both(&self) -> f64 {
+        self.tables
+            .as_ref()
+            .map_or(0.0, |(tables, _)| tables[0].mean + tables[1].mean)
     }
 
     /// (A_1 + A_2) x.
     fn both(&mut self, tables: &[Symbols; 2], x: usize, to: usize) {
         self.plane.forward(&self.fields[x], &mut self.scratch);
-        let pairs = tables[0].own.iter().zip(&tables[1].own);
-        for (wave, (one, two)) in self.scratch.iter_mut().zip(pairs) {
-            *wave *= one + two;
-        }
-        self.plane.back(&mut self.scratch, &mut self.fields[to]);
+        (self.scratch.par_iter_mut())
+            .zip(&tables[0].own)
+            .zip(&tables[1].own)
+            .with_min_len(BLOCK)
+            .for_each(|((wave, one), two)| *wave *= one + two);
+        self.plane.back(&self.scratch, &mut self.fields[to]);
     }
 
-    /// d of this step into the state, by BiCGStab preconditioned by the diagonal.
-    fn share(
-        &mut self,
-        state: &mut HeatState,
-        step: &HeatStep,
-        tables: &[Symbols; 2],
-        past: &[Vec<Complex<f64>>; 2],
-    ) {
+    /// d of this step, by BiCGStab preconditioned by the diagonal, from the last guess on.
+    fn solve(&mut self, made: &[f64], resistance: &[f64], tables: &[Symbols; 2]) {
         // Fields: 0 x, 2 r, 3 r0, 4 p, 5 v, 6 s or its preconditioned one, 7 t.
-        let diagonal = {
-            let sums = tables.iter().map(|table| {
-                let n = table.own.len() as f64;
-                table.own.iter().map(|own| own.re).sum::<f64>() / n
-            });
-            sums.sum::<f64>()
-        };
+        let diagonal = tables[0].mean + tables[1].mean;
         // Right-hand side less the operator on the first guess: H2 − H1 + (A2 − A1) Q/2 − (A1 + A2 + h/k) d.
-        self.plane.forward(step.made, &mut self.made);
-        self.plane.forward(&state.exchange, &mut self.scratch);
-        let symbols = tables[0].own.iter().zip(&tables[1].own);
-        let heat = self.scratch.iter_mut().zip(&self.made);
-        let histories = past[0].iter().zip(&past[1]);
-        for (((d, made), (one, two)), (first, second)) in heat.zip(symbols).zip(histories) {
-            *d = second - first + made * 0.5 * (two - one) - *d * (one + two);
-        }
-        self.plane.back(&mut self.scratch, &mut self.fields[2]);
-        let goal = RESIDUAL * dot(step.made, step.made).sqrt() * diagonal;
-        self.fields[0].clone_from(&state.exchange);
+        self.plane.forward(made, &mut self.made);
+        self.plane.forward(&self.exchange, &mut self.scratch);
+        let symbols = tables[0].own.par_iter().zip(&tables[1].own);
+        let histories = self.past[0].par_iter().zip(&self.past[1]);
+        (self.scratch.par_iter_mut().zip(&self.made))
+            .zip(symbols)
+            .zip(histories)
+            .with_min_len(BLOCK)
+            .for_each(|(((d, made), (one, two)), (first, second))| {
+                *d = second - first + made * 0.5 * (two - one) - *d * (one + two);
+            });
+        self.plane.back(&self.scratch, &mut self.fields[2]);
+        let goal = RESIDUAL * dot(made, made).sqrt() * diagonal;
+        self.fields[0].clone_from(&self.exchange);
         for n in 0..self.fields[2].len() {
-            self.fields[2][n] -= step.resistance[n] * self.fields[0][n];
+            self.fields[2][n] -= resistance[n] * self.fields[0][n];
         }
         let (low, high) = self.fields.split_at_mut(3);
         high[0].clone_from(&low[2]);
@@ -306,41 +379,41 @@ impl Heat {
                 self.fields[4][n] =
                     self.fields[2][n] + beta * (self.fields[4][n] - omega * self.fields[5][n]);
             }
-            self.apply(tables, step, diagonal, 4, 5);
+            self.apply(tables, resistance, diagonal, 4, 5);
             alpha = rho / dot(&self.fields[3], &self.fields[5]);
             for n in 0..self.fields[2].len() {
-                self.fields[0][n] += alpha * self.fields[4][n] / (step.resistance[n] + diagonal);
+                self.fields[0][n] += alpha * self.fields[4][n] / (resistance[n] + diagonal);
                 self.fields[2][n] -= alpha * self.fields[5][n];
             }
             if dot(&self.fields[2], &self.fields[2]).sqrt() <= goal {
                 break;
             }
-            self.apply(tables, step, diagonal, 2, 7);
+            self.apply(tables, resistance, diagonal, 2, 7);
             omega = dot(&self.fields[7], &self.fields[2])
                 / dot(&self.fields[7], &self.fields[7]).max(f64::MIN_POSITIVE);
             for n in 0..self.fields[2].len() {
-                self.fields[0][n] += omega * self.fields[2][n] / (step.resistance[n] + diagonal);
+                self.fields[0][n] += omega * self.fields[2][n] / (resistance[n] + diagonal);
                 self.fields[2][n] -= omega * self.fields[7][n];
             }
         }
-        state.exchange.clone_from(&self.fields[0]);
+        self.exchange.clone_from(&self.fields[0]);
     }
 
     /// The preconditioned operator on field `x`.
     fn apply(
         &mut self,
         tables: &[Symbols; 2],
-        step: &HeatStep,
+        resistance: &[f64],
         diagonal: f64,
         x: usize,
         to: usize,
     ) {
         for n in 0..self.fields[6].len() {
-            self.fields[6][n] = self.fields[x][n] / (step.resistance[n] + diagonal);
+            self.fields[6][n] = self.fields[x][n] / (resistance[n] + diagonal);
         }
         self.both(tables, 6, to);
         for n in 0..self.fields[6].len() {
-            self.fields[to][n] += step.resistance[n] * self.fields[6][n];
+            self.fields[to][n] += resistance[n] * self.fields[6][n];
         }
     }
 }
@@ -349,44 +422,45 @@ fn dot(one: &[f64], two: &[f64]) -> f64 {
     one.iter().zip(two).map(|(a, b)| a * b).sum()
 }
 
-/// Moves the modes on by a step, and writes the waves of what all heat before this step's end does now.
-fn history(
-    table: &Symbols,
-    exponentials: &[[f64; 2]],
-    dt_s: f64,
-    past: &mut Past,
-    out: &mut [Complex<f64>],
-) {
-    let Past {
-        modes,
-        last,
-        before,
-    } = past;
-    modes
-        .par_iter_mut()
-        .zip(exponentials)
-        .for_each(|(mode, [rate, _])| {
-            let slow = rate * dt_s;
-            let fade = (-slow).exp();
-            for (n, u) in mode.0.iter_mut().enumerate() {
-                let [decay, turn, nu] = table.decay[n];
-                if nu.re + slow > GONE {
-                    *u = Complex::default();
-                    continue;
-                }
-                // e^{−ν} = e^{−μ} e^{i k U Δt}.
-                let [here, there] = weights_before(nu + slow, decay * turn.conj() * fade);
-                let turned = before.0[n] * turn;
-                *u = (*u + (here * last.0[n] + there * turned) * dt_s) * (decay * fade);
+/// The modes at the end of the step, and the waves of what all heat before it does then.
+fn history(table: &Symbols, past: &Past, next: &mut [Complex<f32>], out: &mut [Complex<f64>]) {
+    let n = n_exponentials();
+    let old = past
+        .last
+        .0
+        .par_chunks(BLOCK)
+        .zip(past.before.0.par_chunks(BLOCK));
+    (out.par_chunks_mut(BLOCK)
+        .zip(next.par_chunks_mut(BLOCK * n)))
+    .zip(past.modes.0.par_chunks(BLOCK * n))
+    .zip(table.modes.par_chunks(BLOCK * n))
+    .zip(table.last.par_chunks(BLOCK))
+    .zip(old)
+    .for_each(
+        |(((((out, next), modes), factors), by_last), (last, before))| {
+            let mut sums = [Complex::<f32>::default(); BLOCK];
+            let width = out.len();
+            let narrow = |c: &Complex<f64>| Complex::new(c.re as f32, c.im as f32);
+            let mut heat = [[Complex::<f32>::default(); 2]; BLOCK];
+            for (heat, (last, before)) in heat.iter_mut().zip(last.iter().zip(before)) {
+                *heat = [narrow(last), narrow(before)];
             }
-        });
-    for (n, out) in out.iter_mut().enumerate() {
-        let sum: Complex<f64> = (modes.iter().zip(exponentials))
-            .map(|(mode, [_, weight])| mode.0[n] * *weight)
-            .sum();
-        let [_, turn, _] = table.decay[n];
-        *out = sum * table.scale + table.last[n] * last.0[n] * turn;
-    }
+            let lines = (next.chunks_exact_mut(width).zip(modes.chunks_exact(width)))
+                .zip(factors.chunks_exact(width));
+            for ((next, modes), factors) in lines {
+                for k in 0..width {
+                    let [decay, here, there] = factors[k];
+                    let now = modes[k] * decay + heat[k][0] * here + heat[k][1] * there;
+                    next[k] = now;
+                    sums[k] += now;
+                }
+            }
+            let wide = |c: Complex<f32>| Complex::new(f64::from(c.re), f64::from(c.im));
+            for (((out, sum), by_last), last) in out.iter_mut().zip(sums).zip(by_last).zip(last) {
+                *out = wide(sum) + by_last * last;
+            }
+        },
+    );
 }
 
 #[cfg(test)]

@@ -14,9 +14,11 @@
 //!
 //! Exact in the speed of the body, 0 included. The sum of exponentials is good to 1e-3 from a quarter of a step to a thousand.
 
+use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 
 use super::plane::Plane;
+use super::{BLOCK, GONE, Thermal};
 use crate::math::quadrature::gauss_legendre;
 
 /// Spacing in y of the exponentials: a relative error of exp(−π²/(2·0.7)).
@@ -46,54 +48,84 @@ pub(super) fn exponentials(dt_s: f64) -> Vec<[f64; 2]> {
     all
 }
 
-/// How many exponentials there are.
+/// How many there are.
 pub(super) fn n_exponentials() -> usize {
-    exponentials(1.0).len()
+    let span = 0.5 * (REACH[1] / REACH[0]).ln() + TAILS[0] + TAILS[1];
+    (span / SPACING).ceil() as usize + 2
 }
 
 /// Tables of one body for one step length and speed.
 pub(super) struct Symbols {
-    /// (√κ/k_c)(E_0 − E_1): what the heat of now does.
+    /// (√κ/k_c)(E_0 − E_1): what the heat of now does, and the mean of it over all waves.
     pub(super) own: Vec<Complex<f64>>,
+    pub(super) mean: f64,
     /// (√κ/k_c) E_1: what that of the last step does, turned to now.
     pub(super) last: Vec<Complex<f64>>,
-    /// e^{−μΔt}, e^{−i k_x U Δt}, ν Δt.
-    pub(super) decay: Vec<[Complex<f64>; 3]>,
-    /// √κ/k_c.
-    pub(super) scale: f64,
+    /// Of each mode: e^{−(λ_j + μ)Δt}, and what the heat of the last step and of the last but one adds; in blocks as the modes.
+    pub(super) modes: Vec<[Complex<f32>; 3]>,
 }
 
 impl Symbols {
-    /// `length_m`: the plane's unit of length.
+    /// `length_m`: the plane's unit of length; `v_m_s`, `u_m_s`: V and U.
     pub(super) fn new(
         plane: &Plane,
         length_m: f64,
-        [conductivity, diffusivity]: [f64; 2],
+        thermal: Thermal,
         [v_m_s, u_m_s]: [f64; 2],
         dt_s: f64,
+        exponentials: &[[f64; 2]],
     ) -> Self {
-        let scale = diffusivity.sqrt() / conductivity;
+        let scale = thermal.diffusivity.sqrt() / thermal.conductivity;
         let rule = gauss_legendre(NODES);
-        let n = plane.len();
-        let mut this = Self {
-            own: Vec::with_capacity(n),
-            last: Vec::with_capacity(n),
-            decay: Vec::with_capacity(n),
-            scale,
-        };
-        for wave in 0..n {
-            let [kx, ky] = plane.wave(wave).map(|k| k / length_m);
-            let spread = diffusivity * (kx * kx + ky * ky);
-            let mu = Complex::new(spread, kx * v_m_s) * dt_s;
-            let nu = Complex::new(spread, kx * (v_m_s - u_m_s)) * dt_s;
-            let [whole, first] = over_step(&rule, nu).map(|e| e * (scale * dt_s.sqrt()));
-            this.own.push(whole - first);
-            this.last.push(first);
-            let turn = Complex::new(0.0, -kx * u_m_s * dt_s).exp();
-            this.decay.push([(-mu).exp(), turn, nu]);
+        let (n, zero) = (plane.len(), Complex::default());
+        let (mut own, mut last) = (vec![zero; n], vec![zero; n]);
+        let mut modes = vec![[Complex::default(); 3]; n * exponentials.len()];
+        (own.par_chunks_mut(BLOCK).zip(last.par_chunks_mut(BLOCK)))
+            .zip(modes.par_chunks_mut(BLOCK * exponentials.len()))
+            .enumerate()
+            .for_each(|(block, ((own, last), modes))| {
+                let width = own.len();
+                for k in 0..width {
+                    let [kx, ky] = plane.wave(block * BLOCK + k).map(|k| k / length_m);
+                    let spread = thermal.diffusivity * (kx * kx + ky * ky);
+                    let mu = Complex::new(spread, kx * v_m_s) * dt_s;
+                    let nu = Complex::new(spread, kx * (v_m_s - u_m_s)) * dt_s;
+                    let [whole, first] = over_step(&rule, nu).map(|e| e * (scale * dt_s.sqrt()));
+                    let turn = Complex::new(0.0, -kx * u_m_s * dt_s).exp();
+                    own[k] = whole - first;
+                    last[k] = first * turn;
+                    for (mode, [rate, weight]) in exponentials.iter().enumerate() {
+                        modes[mode * width + k] =
+                            factors(mu, nu, turn, rate * dt_s, weight * scale * dt_s);
+                    }
+                }
+            });
+        let mean = own.iter().map(|own| own.re).sum::<f64>() / n as f64;
+        Self {
+            own,
+            mean,
+            last,
+            modes,
         }
-        this
     }
+}
+
+/// What a step makes of a mode that fades by `slow` in it, and of the heat before it.
+fn factors(
+    mu: Complex<f64>,
+    nu: Complex<f64>,
+    turn: Complex<f64>,
+    slow: f64,
+    weight: f64,
+) -> [Complex<f32>; 3] {
+    if nu.re + slow > GONE {
+        return [Complex::default(); 3];
+    }
+    let decay = (-(mu + slow)).exp();
+    // e^{−ν} = e^{−μ} e^{i k U Δt}.
+    let [here, there] = weights_before(nu + slow, decay * turn.conj());
+    let narrow = |c: Complex<f64>| Complex::new(c.re as f32, c.im as f32);
+    [decay, here * decay * weight, there * turn * decay * weight].map(narrow)
 }
 
 /// ∫_0^1 e^{−z r}/√(π r) dr and ∫_0^1 r e^{−z r}/√(π r) dr, by r = x².
@@ -112,7 +144,7 @@ fn over_step((nodes, weights): &(Vec<f64>, Vec<f64>), z: Complex<f64>) -> [Compl
 }
 
 /// ∫_0^1 e^{−z r} dr − ∫_0^1 r e^{−z r} dr, and the latter, where `e` is e^{−z}.
-pub(super) fn weights_before(z: Complex<f64>, e: Complex<f64>) -> [Complex<f64>; 2] {
+fn weights_before(z: Complex<f64>, e: Complex<f64>) -> [Complex<f64>; 2] {
     if z.norm_sqr() < 1e-4 {
         let whole = 1.0 - z / 2.0 + z * z / 6.0;
         let first = 0.5 - z / 3.0 + z * z / 8.0;
