@@ -75,6 +75,7 @@ pub(crate) fn conditions(medium: &Medium, tolerance: Tolerance) -> Conditions<'_
     Conditions {
         medium,
         law: None,
+        shift: &[],
         load: LOAD,
         tolerance,
     }

@@ -34,6 +34,7 @@ fn films(case: &Case, inlet: usize, half: usize) -> (f64, f64) {
     let conditions = Conditions {
         medium: &case.medium,
         law: None,
+        shift: &[],
         load: LOAD,
         tolerance: TOLERANCE,
     };

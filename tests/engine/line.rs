@@ -28,6 +28,7 @@ fn conditions(medium: &Medium, tolerance: Tolerance) -> Conditions<'_> {
     Conditions {
         medium,
         law: None,
+        shift: &[],
         load: LOAD,
         tolerance,
     }

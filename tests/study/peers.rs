@@ -117,6 +117,7 @@ fn hertz(n: usize, tolerance: f64) -> Result<Row, String> {
     let conditions = Conditions {
         medium: &Medium::DRY,
         law: None,
+        shift: &[],
         load: 2.0 * PI / 3.0,
         tolerance: tight(tolerance),
     };

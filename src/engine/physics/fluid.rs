@@ -38,7 +38,7 @@ const EXPONENT_CAP: f64 = 300.0;
 /// Roelands' pressure constant, Pa.
 const ROELANDS_P0_PA: f64 = 1.962e8;
 /// Roelands' constant: -ln of 6.315e-5 Pa s.
-const ROELANDS_LN: f64 = 9.67;
+pub(crate) const ROELANDS_LN: f64 = 9.67;
 
 crate::closed_set! {
     /// Viscosity law.

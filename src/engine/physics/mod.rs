@@ -31,5 +31,6 @@ pub mod random_surface;
 pub mod ripple;
 pub mod strength;
 pub mod stress_exact;
+pub mod thinning;
 pub mod turning;
 pub mod waviness;

@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::lubricant::Lubricant;
+use crate::physics::fluid::ViscosityLaw;
+use crate::physics::thinning::Thinning;
 
 /// `[heat]`: the bulk, and the oil.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -16,9 +18,13 @@ pub struct Heat {
     pub density_kg_m3: f64,
     /// Heat capacity of the oil, J/(kg K).
     pub heat_capacity_j_kgk: f64,
-    /// β: how fast the viscosity falls, −d ln η/dT, 1/K; `None`: by the oil's grade, where the scene has one.
+    /// β: how fast the viscosity falls, −d ln η/dT, 1/K, at any pressure; `None`: by the exponent or the oil's grade.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub viscosity_temperature_per_k: Option<f64>,
+    /// S0 of Roelands' law, by which the viscosity falls the faster the higher the pressure; `None`: by the coefficient or the
+    /// oil's grade.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscosity_temperature_exponent: Option<f64>,
 }
 
 impl Default for Heat {
@@ -29,6 +35,7 @@ impl Default for Heat {
             density_kg_m3: 870.0,
             heat_capacity_j_kgk: 2000.0,
             viscosity_temperature_per_k: None,
+            viscosity_temperature_exponent: None,
         }
     }
 }
@@ -39,18 +46,28 @@ impl Heat {
         self.thermal_conductivity_w_mk / (self.density_kg_m3 * self.heat_capacity_j_kgk)
     }
 
-    /// β, 1/K; `None`: it is neither given nor does the oil have a grade.
-    pub fn beta_per_k(&self, oil: &Lubricant) -> Option<f64> {
-        self.viscosity_temperature_per_k.or_else(|| {
-            let celsius = oil.temperature_c?;
-            let at = |celsius: f64| {
-                let warm = Lubricant {
-                    temperature_c: Some(celsius),
-                    ..oil.clone()
-                };
-                warm.viscosity_pa_s()
+    /// How the oil thins as it warms: by Roelands' exponent, by the coefficient, or by the oil's grade in the law of its
+    /// pressure; `None`: none of them is there.
+    pub fn thinning(&self, oil: &Lubricant) -> Option<Thinning> {
+        let (eta, bulk) = (oil.viscosity_pa_s(), self.bulk_k);
+        if let Some(exponent) = self.viscosity_temperature_exponent {
+            return Some(Thinning::roelands(eta, exponent, bulk));
+        }
+        if let Some(per_k) = self.viscosity_temperature_per_k {
+            return Some(Thinning::Exponential { per_k });
+        }
+        let celsius = oil.temperature_c?;
+        let at = |celsius: f64| {
+            let warm = Lubricant {
+                temperature_c: Some(celsius),
+                ..oil.clone()
             };
-            Some((at(celsius - 1.0) / at(celsius + 1.0)).ln() / 2.0)
+            warm.viscosity_pa_s()
+        };
+        let per_k = (at(celsius - 1.0) / at(celsius + 1.0)).ln() / 2.0;
+        Some(match oil.viscosity_law {
+            ViscosityLaw::Barus => Thinning::Exponential { per_k },
+            ViscosityLaw::Roelands => Thinning::roelands_of_slope(eta, per_k, bulk),
         })
     }
 }

@@ -248,7 +248,8 @@ pub const SECTIONS: &[Section] = &[
             key("thermal_conductivity_w_mk", "W/(m K)", Number(0.001, 10.0), Defaulted, "conductivity of the oil, across which both surfaces exchange heat"),
             key("density_kg_m3", "kg/m3", Number(100.0, 3000.0), Defaulted, "density of the oil"),
             key("heat_capacity_j_kgk", "J/(kg K)", Number(100.0, 10000.0), Defaulted, "heat capacity of the oil"),
-            key("viscosity_temperature_per_k", "1/K", Number(0.0, 0.5), Optional("by lubricant.vg, or no inlet factor is told"), "how fast the viscosity falls, -d ln(viscosity)/dT, for the inlet's heating"),
+            key("viscosity_temperature_per_k", "1/K", Number(0.0, 0.5), Optional("by the exponent or lubricant.vg; else warm oil is as thick as cold"), "how fast the viscosity falls as the oil warms, -d ln(viscosity)/dT, at any pressure"),
+            key("viscosity_temperature_exponent", "1", Number(0.0, 5.0), Optional("by the coefficient or lubricant.vg"), "S0 of Roelands' law, in place of the coefficient: the oil thins the faster the higher the pressure"),
         ],
     },
     Section {

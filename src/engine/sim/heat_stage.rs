@@ -1,65 +1,121 @@
-//! Heat of each step that is looked at, and how warm it makes the surfaces. Nothing of it goes back into film or friction.
+//! Heat of each step, how warm it makes surfaces and oil, and how much thinner that makes the oil.
+//!
+//! ```text
+//! begin     what the heat of all steps before does at the end of this one; the oil as thin as it was
+//! find      stress of every node from its walls' temperature, heat from that, walls from the heat, until both agree
+//! again     the step is solved with the oil as thin as it now is, as long as its film error says so (`stepping.rs`)
+//! commit    with the step
+//! ```
+//! While a knob walks the bodies move at the speeds that it walks to: else each of its steps would need tables of its own.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::sim_plan::SimPlan;
+use super::scaling::Scaling;
+use crate::math::elementary::exp;
 use crate::math::grid::Grid;
 use crate::physics::heat_estimate::{blok_k, inlet_factor};
 use crate::saved::saved;
 use crate::scene::Scene;
-use crate::solve::heat::{Heat, HeatState, HeatStep, Thermal};
+use crate::physics::thinning::{Sheared, Thinning};
+use crate::solve::heat::{Heat, HeatState, Thermal};
+use crate::solve::traction::TractionLaw;
 
 /// m² K/W between surfaces that nothing joins.
 const APART: f64 = 1e3;
 /// Change of the greatest rise over a time a/U below which a steady contact is as warm as it gets, and most such times.
 const STEADY: f64 = 2e-4;
 const LONGEST: f64 = 60.0;
+/// Relative change of the heat that is small enough, and most times that it is looked for.
+const SAME: f64 = 1e-3;
+const MOST_ROUNDS: usize = 12;
+/// Parts of Q h/k_f by which the flow sees the oil warmer than its walls: heat of the sliding, of the flow itself; and the
+/// middle of the film, of the latter.
+const FLOW_OF_SLIDING: f64 = 1.0 / 20.0;
+const FLOW_OF_FLOW: f64 = 3.0 / 84.0;
+const MIDDLE_OF_FLOW: f64 = 1.0 / 16.0;
 
 /// Workspace.
 pub(super) struct HeatStage {
     heat: Heat,
-    made: Vec<f64>,
     resistance: Vec<f64>,
     /// k_f; `None`: a dry scene.
     oil: Option<f64>,
+    /// How the oil thins; `None`: nobody knows, or there is none, and nothing of the heat goes back.
+    thinning: Option<Thinning>,
+    /// q, and of each row the change of the heat and the heat.
+    traction: Vec<f64>,
+    changes: Vec<[f64; 2]>,
+    now: Film,
+}
+
+/// The oil at every node.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Film {
+    /// Q, W/m².
+    made: Vec<f64>,
+    /// Mean rise of both walls, K.
+    walls_k: Vec<f64>,
+    /// Rise in the middle of the film over the walls, K.
+    middle_k: Vec<f64>,
+    /// Shift of ln η̄ where the oil is sheared.
+    shift: Vec<f64>,
+    /// c of the flow ([`Thinning::at_rest`]).
+    thinner: Vec<f64>,
+}
+
+saved! {
+    Film { parts: made, walls_k, middle_k, shift, thinner; }
 }
 
 /// What is remembered.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Warmth {
     state: HeatState,
-    /// Greatest rise of the steps that count, K.
-    greatest_k: f64,
+    film: Film,
+    /// Greatest rise of surfaces and oil in the steps that count, K.
+    greatest_k: [f64; 2],
     /// Sums over them: steps, the mean rise of both surfaces over the Hertz ellipse, the share of body 1.
     sums: [f64; 3],
 }
 
 saved! {
-    Warmth { parts: state; free: greatest_k, sums; }
-    holds |_, saved| saved.greatest_k >= 0.0 && saved.sums[0] >= 0.0
+    Warmth { parts: state, film; free: greatest_k, sums; }
+    holds |_, saved| saved.greatest_k.iter().all(|k| *k >= 0.0) && saved.sums[0] >= 0.0
 }
 
 /// What the steps that count come to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Warmed {
     pub(super) greatest_k: f64,
+    pub(super) film_k: f64,
     pub(super) mean_k: f64,
     pub(super) share_1: f64,
 }
 
-/// A step to be heated.
-pub(super) struct Heating<'a> {
+/// A step that has been solved.
+pub(super) struct SolvedStep<'a> {
     pub(super) grid: &'a Grid,
-    /// P, H and Q.
+    pub(super) scaling: &'a Scaling,
+    pub(super) law: &'a TractionLaw,
+    /// P and H.
     pub(super) pressure: &'a [f64],
     pub(super) film: &'a [f64],
-    pub(super) traction: &'a [f64],
+    /// |U2 − U1|.
+    pub(super) sliding_m_s: f64,
+}
+
+/// Length of a step, s, and the speeds of both bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Times {
     pub(super) dt_s: f64,
     pub(super) speeds_m_s: [f64; 2],
-    /// Hertz half-widths of now, in a.
-    pub(super) ellipse: (f64, f64),
-    /// Whether the contact stands still: then it is heated until it is as warm as it gets.
-    pub(super) steady: bool,
+}
+
+/// How the oil of a scene thins as it warms.
+fn thinning(scene: &Scene) -> Option<Thinning> {
+    let (heat, oil) = scene.heat.zip(scene.lubricant.as_ref())?;
+    heat.thinning(oil)
 }
 
 impl HeatStage {
@@ -73,11 +129,15 @@ impl HeatStage {
                 diffusivity: heat.diffusivity_m2_s(),
             }
         });
+        let thinning = thinning(scene);
         Some(Self {
             heat: Heat::new(grid, a_m, bodies),
-            made: vec![0.0; grid.len()],
             resistance: vec![0.0; grid.len()],
             oil: (scene.lubricant.as_ref()).map(|_| asked.thermal_conductivity_w_mk),
+            now: Film::cold(grid.len()),
+            traction: vec![0.0; grid.len()],
+            changes: vec![[0.0; 2]; grid.ny],
+            thinning,
         })
     }
 
@@ -85,59 +145,145 @@ impl HeatStage {
     pub(super) fn cold(&self) -> Warmth {
         Warmth {
             state: self.heat.cold(),
-            greatest_k: 0.0,
+            film: Film::cold(self.resistance.len()),
+            greatest_k: [0.0; 2],
             sums: [0.0; 3],
         }
     }
 
-    /// Heats a step, and counts it.
-    pub(super) fn advance(&mut self, plan: &SimPlan, warmth: &mut Warmth, step: &Heating) {
-        let scaling = &plan.scaling;
-        let sliding = (step.speeds_m_s[1] - step.speeds_m_s[0]).abs();
-        for n in 0..self.made.len() {
-            let (p, h) = (step.pressure[n], step.film[n].max(0.0));
-            self.made[n] = scaling.pa_from_p(step.traction[n].abs()) * sliding;
-            self.resistance[n] = match self.oil {
-                Some(conductivity) => scaling.m_from_h(h) / conductivity,
-                None if p > 0.0 => 0.0,
+    /// Whether warm oil changes film and friction.
+    pub(super) fn feeds_back(&self) -> bool {
+        self.thinning.is_some()
+    }
+
+    /// c of every node and 1/scale, for the flow.
+    pub(super) fn thinner(&self) -> Option<(&[f64], f64)> {
+        (self.thinning.as_ref()).map(|law| (&self.now.thinner[..], law.per_scale()))
+    }
+
+    /// Shift of ln η̄ for the traction.
+    pub(super) fn shift(&self) -> &[f64] {
+        &self.now.shift
+    }
+
+    /// A step begins; its film is as warm as the last one's.
+    pub(super) fn begin(&mut self, warmth: &mut Warmth, times: Times) {
+        self.now.copy(&warmth.film);
+        self.heat.begin(&mut warmth.state, times.dt_s, times.speeds_m_s);
+    }
+
+    /// Heat and temperatures of the step that has begun, as it has been solved last.
+    pub(super) fn find(&mut self, step: &SolvedStep) {
+        self.resist(step);
+        for round in 0..MOST_ROUNDS {
+            self.shear(step);
+            let (change, all) = (self.changes.iter())
+                .fold((0.0, 0.0), |(change, all), row| (change + row[0], all + row[1]));
+            // Heat that is what it was has warmed the walls already.
+            if round > 0 && change <= SAME * all {
+                break;
+            }
+            self.heat.share(&self.now.made, &self.resistance);
+            let walls = self.now.walls_k.iter_mut().zip(&self.heat.rise[0]);
+            for ((walls, one), two) in walls.zip(&self.heat.rise[1]) {
+                *walls = 0.5 * (one + two);
+            }
+            if self.thinning.is_none() {
+                break;
+            }
+        }
+    }
+
+    /// The step has been made.
+    pub(super) fn commit(&mut self, warmth: &mut Warmth) {
+        warmth.film.copy(&self.now);
+        self.heat.commit(&mut warmth.state);
+    }
+
+    /// h/k_f of every node.
+    fn resist(&mut self, step: &SolvedStep) {
+        for (n, resistance) in self.resistance.iter_mut().enumerate() {
+            *resistance = match self.oil {
+                Some(conductivity) => step.scaling.m_from_h(step.film[n].max(0.0)) / conductivity,
+                None if step.pressure[n] > 0.0 => 0.0,
                 None => APART,
             };
         }
-        let heated = HeatStep {
-            dt_s: step.dt_s,
-            speeds_m_s: step.speeds_m_s,
-            made: &self.made,
-            resistance: &self.resistance,
-        };
-        self.heat.advance(&mut warmth.state, &heated);
-        let greatest = |heat: &Heat| {
-            let both = heat.rise[0].iter().chain(&heat.rise[1]);
-            both.copied().fold(0.0, f64::max)
-        };
-        let mut now = greatest(&self.heat);
-        if step.steady {
-            let a_unit = (1.0 / step.grid.dx).ceil() as usize;
-            for _ in 0..LONGEST as usize {
-                let before = now;
-                for _ in 0..a_unit {
-                    self.heat.advance(&mut warmth.state, &heated);
-                }
-                now = greatest(&self.heat);
-                if now - before <= STEADY * now {
-                    break;
-                }
+    }
+
+    /// Stress, heat and thinning of every node from the temperature of its walls.
+    fn shear(&mut self, step: &SolvedStep) {
+        let nx = step.grid.nx;
+        let node = NodeLaw::new(self, step);
+        let Film {
+            made,
+            walls_k,
+            middle_k,
+            shift,
+            thinner,
+        } = &mut self.now;
+        (made.par_chunks_mut(nx).zip(middle_k.par_chunks_mut(nx)))
+            .zip(shift.par_chunks_mut(nx).zip(thinner.par_chunks_mut(nx)))
+            .zip(self.traction.par_chunks_mut(nx).zip(&mut self.changes))
+            .zip(walls_k.par_chunks(nx))
+            .enumerate()
+            .for_each(|(j, ((((made, middle), (shift, thinner)), (q, change)), walls))| {
+                let row = Row {
+                    j,
+                    walls,
+                    made,
+                    middle,
+                    q,
+                    shift,
+                    thinner,
+                };
+                *change = node.row(step, row);
+            });
+    }
+
+    /// Heats a contact that stands still until it is as warm as it gets; the step has been committed.
+    pub(super) fn soak(&mut self, warmth: &mut Warmth, times: Times, step: &SolvedStep) {
+        let a_unit = (1.0 / step.grid.dx).ceil() as usize;
+        let mut now = self.greatest_k();
+        for _ in 0..LONGEST as usize {
+            let before = now;
+            for _ in 0..a_unit {
+                self.step(warmth, times, step);
+            }
+            now = self.greatest_k();
+            if (now - before).abs() <= STEADY * now {
+                break;
             }
         }
-        warmth.greatest_k = warmth.greatest_k.max(now);
-        let (mean, share) = self.means(step);
+    }
+
+    /// A step of the heat alone.
+    pub(super) fn step(&mut self, warmth: &mut Warmth, times: Times, step: &SolvedStep) {
+        self.begin(warmth, times);
+        self.find(step);
+        self.commit(warmth);
+    }
+
+    fn greatest_k(&self) -> f64 {
+        let both = self.heat.rise[0].iter().chain(&self.heat.rise[1]);
+        both.copied().fold(0.0, f64::max)
+    }
+
+    /// Counts the step that has been committed; `ellipse`: Hertz half-widths of now, in a.
+    pub(super) fn count(&self, warmth: &mut Warmth, grid: &Grid, ellipse: (f64, f64)) {
+        let oil = self.now.walls_k.iter().zip(&self.now.middle_k);
+        let warmest = oil.map(|(walls, middle)| walls + middle).fold(0.0, f64::max);
+        for (greatest, now) in warmth.greatest_k.iter_mut().zip([self.greatest_k(), warmest]) {
+            *greatest = greatest.max(now);
+        }
+        let (mean, share) = self.means(grid, ellipse);
         for (sum, value) in warmth.sums.iter_mut().zip([1.0, mean, share]) {
             *sum += value;
         }
     }
 
     /// Mean rise of both surfaces over the Hertz ellipse, and the share of body 1.
-    fn means(&self, step: &Heating) -> (f64, f64) {
-        let (grid, (a, b)) = (step.grid, step.ellipse);
+    fn means(&self, grid: &Grid, (a, b): (f64, f64)) -> (f64, f64) {
         let inside = |n: usize| {
             let (x, y) = (grid.x(n % grid.nx) / a, grid.y(n / grid.nx) / b);
             f64::from(u8::from(x * x + y * y <= 1.0))
@@ -145,16 +291,147 @@ impl HeatStage {
         let [one, two] = &self.heat.rise;
         let warm = grid.integrate(|n| inside(n) * 0.5 * (one[n] + two[n]));
         let mean = warm / grid.integrate(inside).max(f64::MIN_POSITIVE);
-        let made = grid.integrate(|n| self.made[n]);
+        let made = grid.integrate(|n| self.now.made[n]);
         let share = grid.integrate(|n| self.heat.into_body_1[n]) / made.max(f64::MIN_POSITIVE);
         (mean, share)
     }
 }
 
+impl Film {
+    /// As cold as the bulk.
+    fn cold(n: usize) -> Self {
+        let field = vec![0.0; n];
+        Self {
+            made: field.clone(),
+            walls_k: field.clone(),
+            middle_k: field.clone(),
+            shift: field.clone(),
+            thinner: field,
+        }
+    }
+
+    fn copy(&mut self, from: &Self) {
+        self.made.copy_from_slice(&from.made);
+        self.walls_k.copy_from_slice(&from.walls_k);
+        self.middle_k.copy_from_slice(&from.middle_k);
+        self.shift.copy_from_slice(&from.shift);
+        self.thinner.copy_from_slice(&from.thinner);
+    }
+}
+
+/// A row of nodes.
+struct Row<'a> {
+    j: usize,
+    walls: &'a [f64],
+    made: &'a mut [f64],
+    middle: &'a mut [f64],
+    q: &'a mut [f64],
+    shift: &'a mut [f64],
+    thinner: &'a mut [f64],
+}
+
+/// What is the same at all nodes of a step.
+struct NodeLaw {
+    thinning: Option<Thinning>,
+    /// W/m² of a stress of p_h.
+    unit: f64,
+    /// h/k_f of H = 1, m² K/W.
+    resistance: f64,
+    /// K a W/m² by which walls warm with the heat of a node.
+    walls_grow: f64,
+    /// Q_p of H³ g |∇P|² = 1, W/m².
+    flow: f64,
+}
+
+impl NodeLaw {
+    fn new(stage: &HeatStage, step: &SolvedStep) -> Self {
+        let scaling = step.scaling;
+        Self {
+            thinning: stage.thinning,
+            unit: scaling.pa_from_p(1.0) * step.sliding_m_s,
+            resistance: stage.oil.map_or(0.0, |k| scaling.m_from_h(1.0) / k),
+            walls_grow: 0.25 * stage.heat.own_of_both(),
+            flow: scaling.flow_heat_w_m2(),
+        }
+    }
+
+    /// Of a row; how much its heat changes, and how much it is.
+    fn row(&self, step: &SolvedStep, row: Row) -> [f64; 2] {
+        let (nx, dx) = (step.grid.nx, step.grid.dx);
+        let here = row.j * nx..(row.j + 1) * nx;
+        let (p, h) = (&step.pressure[here.clone()], &step.film[here]);
+        if let Some(thinning) = &self.thinning {
+            for i in 0..nx {
+                let sheared = self.sheared(step.law, p[i], h[i], row.walls[i], row.made[i]);
+                let found = sheared.map(|node| node.thinned(thinning)).unwrap_or_default();
+                (row.shift[i], row.middle[i]) = (found.shift, found.middle_k);
+            }
+        }
+        step.law.traction_row(dx, p, h, row.shift, row.q);
+        let mut sums = [0.0; 2];
+        for i in 0..nx {
+            let sliding = row.q[i].abs() * self.unit;
+            let resistance = self.resistance * h[i].max(0.0);
+            let slope = if i > 0 && i + 1 < nx {
+                0.5 * (p[i + 1] - p[i - 1]) / dx
+            } else {
+                0.0
+            };
+            let flowing = self.flow_heat(step.law, [p[i], h[i], slope], row.q[i], row.shift[i]);
+            if self.thinning.is_none() {
+                row.middle[i] = sliding * resistance / 8.0;
+            }
+            row.middle[i] += MIDDLE_OF_FLOW * flowing * resistance;
+            let made = sliding + flowing;
+            sums[0] += (made - row.made[i]).abs();
+            sums[1] += made;
+            row.made[i] = made;
+            if let Some(thinning) = &self.thinning {
+                let over = FLOW_OF_SLIDING * sliding + FLOW_OF_FLOW * flowing;
+                row.thinner[i] = thinning.at_rest(row.walls[i] + over * resistance);
+            }
+        }
+        sums
+    }
+
+    /// Q_p of a node with P, H and ∂P/∂X whose traction is `q` and whose ln η̄ is shifted, W/m².
+    fn flow_heat(&self, law: &TractionLaw, [p, h, slope]: [f64; 3], q: f64, shift: f64) -> f64 {
+        let Some(film) = law.film.filter(|_| p > 0.0 && h > law.contact_film) else {
+            return 0.0;
+        };
+        let ln_eta = law.viscosity.ln_eta(p).0 + shift;
+        // Sheared oil flows the more easily by cosh σ (`physics/fluid.rs`).
+        let sigma = film.eyring.map_or(0.0, |tau0| q.abs() / tau0);
+        let fluidity = 0.5 * (exp(sigma - ln_eta) + exp(-sigma - ln_eta));
+        self.flow * h.powi(3) * slope * slope * fluidity
+    }
+
+    /// A node of the film that is sheared; `None`: nothing is, or nothing flows there.
+    fn sheared(&self, law: &TractionLaw, p: f64, h: f64, walls_k: f64, made: f64) -> Option<Sheared> {
+        let film = law.film.filter(|_| law.direction != 0.0 && p > 0.0 && h > law.contact_film)?;
+        let ln_eta = law.viscosity.ln_eta(p).0;
+        Some(Sheared {
+            newtonian: film.rate / h * exp(ln_eta),
+            ln_eta,
+            eyring: film.eyring,
+            limit: film.limit * p,
+            warms_k: self.unit * self.resistance * h,
+            walls_k,
+            of_stress: made / self.unit,
+            walls_grow_k: self.walls_grow * self.unit,
+        })
+    }
+}
+
 impl Warmth {
+    /// Shift of ln η̄ of warm oil where it is sheared.
+    pub(super) fn shift(&self) -> &[f64] {
+        &self.film.shift
+    }
+
     /// What has been counted is of other conditions; how warm the bodies are stays.
     pub(super) fn forget(&mut self) {
-        self.greatest_k = 0.0;
+        self.greatest_k = [0.0; 2];
         self.sums = [0.0; 3];
     }
 
@@ -162,7 +439,8 @@ impl Warmth {
     pub(super) fn warmed(&self) -> Option<Warmed> {
         let [n, mean, share] = self.sums;
         (n > 0.0).then(|| Warmed {
-            greatest_k: self.greatest_k,
+            greatest_k: self.greatest_k[0],
+            film_k: self.greatest_k[1],
             mean_k: mean / n,
             share_1: share / n,
         })
@@ -186,7 +464,7 @@ pub(super) fn blok(scene: &Scene, friction: f64, half_width_m: f64, p_hertz_pa: 
 pub(super) fn inlet(scene: &Scene) -> Option<f64> {
     let (heat, oil) = scene.heat.zip(scene.lubricant.as_ref())?;
     let u = scene.motion.entrainment_m_s;
-    let beta = heat.beta_per_k(oil)?;
+    let beta = heat.thinning(oil)?.slope_per_k();
     let loading = beta * oil.viscosity_pa_s() * u * u / heat.thermal_conductivity_w_mk;
     Some(inlet_factor(scene.motion.slide_roll, loading))
 }

@@ -58,6 +58,8 @@ pub(super) struct Fields<'a> {
     pub(super) p: &'a [f64],
     /// H.
     pub(super) h: &'a [f64],
+    /// By how much ln η̄ of warm oil is shifted; empty: it is cold.
+    pub(super) shift: &'a [f64],
     /// Hertz half-widths of the present load.
     pub(super) ellipse: (f64, f64),
 }
@@ -90,7 +92,8 @@ pub(super) fn measure(fields: &Fields, traction: &mut [f64], rows: &mut [RowSums
             &fields.p[j * nx..(j + 1) * nx],
             &fields.h[j * nx..(j + 1) * nx],
         );
-        fields.law.traction_row(grid.dx, p, h, q);
+        let shift = fields.shift.get(j * nx..(j + 1) * nx).unwrap_or(&[]);
+        fields.law.traction_row(grid.dx, p, h, shift, q);
         *row = sum_row(grid, fields.law, (a, grid.y(j) / b), p, h, q);
     });
     let mut total = RowSums {

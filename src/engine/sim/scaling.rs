@@ -191,6 +191,15 @@ impl Scaling {
         x * self.a_m
     }
 
+    /// Heat of a pressure flow of H³ g |∇P|² = 1, h³ g |∇p|²/(12 η0), W/m²; dry: 0.
+    pub(super) fn flow_heat_w_m2(&self) -> f64 {
+        if self.lambda_s_m > 0.0 {
+            self.film_m * self.p_hertz_pa / (self.a_m * self.lambda_s_m)
+        } else {
+            0.0
+        }
+    }
+
     /// κ_s of the deflection by traction, from the mismatch of the materials, 1/Pa.
     pub(super) fn kappa_s(&self, mismatch_per_pa: f64) -> f64 {
         self.p_hertz_pa * self.a_m / self.film_m * mismatch_per_pa / std::f64::consts::TAU

@@ -11,6 +11,7 @@
 
 use super::drive::Drive;
 use super::frame::Metrics;
+use super::heat_stage::{HeatStage, SolvedStep, Times, Warmth};
 use super::motion::Travel;
 use super::pace::{StepTest, Stepping};
 use super::roughness::Roughness;
@@ -30,6 +31,9 @@ const MOST_NEWTON: u32 = 1500;
 /// Film error above which an unconverged step is not kept: it would pump mass into the history. Of a dry step the error is
 /// a gap or overlap over the film that p_h on one node makes: this much is wrong by as much of p_h at that node.
 const HOPELESS: f64 = 0.05;
+
+/// Most times that a step is solved again because its oil has warmed; beyond it shorter steps are tried.
+const MOST_WARMED: usize = 8;
 
 /// What a step took and reached.
 #[derive(Debug, Clone, Copy, Default)]
@@ -163,6 +167,28 @@ pub(super) fn place_surfaces(
     roughness.gap_into(&solver.macroscopic, &mut solver.gap);
 }
 
+/// Length of a step of so many nodes, and the speeds of both bodies; while a knob walks as where it walks to.
+pub(super) fn times(plan: &SimPlan, drive: &Drive, dx: f64, nodes: f64) -> Times {
+    let value = |knob| {
+        let setting = drive.get(knob);
+        if drive.is_walking() {
+            setting.target
+        } else {
+            setting.now
+        }
+    };
+    let (u_m_s, s) = (value(Knob::EntrainmentMS), value(Knob::SlideRoll));
+    Times {
+        dt_s: nodes * dx * plan.scaling.a_m / u_m_s,
+        speeds_m_s: [u_m_s * (1.0 - 0.5 * s), u_m_s * (1.0 + 0.5 * s)],
+    }
+}
+
+/// |U2 − U1|.
+pub(super) fn sliding_m_s(drive: &Drive) -> f64 {
+    (drive.get(Knob::SlideRoll).now * drive.get(Knob::EntrainmentMS).now).abs()
+}
+
 /// Amplitudes of both bodies as the knobs are, film units.
 fn amplitudes(scaling: &Scaling, drive: &Drive) -> [f64; 2] {
     Knob::AMPLITUDES.map(|knob| scaling.h_from_m(drive.get(knob).now))
@@ -183,6 +209,14 @@ pub(super) struct Mover<'a> {
     pub(super) yielded: Option<&'a mut Yielded>,
     /// What is worn; `None`: nothing.
     pub(super) worn: Option<&'a Worn>,
+    /// What warms; `None`: nobody asks.
+    pub(super) heated: Option<Heated<'a>>,
+}
+
+/// What a step warms.
+pub(super) struct Heated<'a> {
+    pub(super) stage: &'a mut HeatStage,
+    pub(super) warmth: &'a mut Warmth,
 }
 
 impl Mover<'_> {
@@ -224,12 +258,72 @@ impl Mover<'_> {
     fn solve(&mut self, nodes: f64, done: &mut Attempted) -> Option<NewtonReport> {
         let given = (self.given.take()).map(|(pressure, h0)| Guess::Given(pressure, h0));
         for guess in given.into_iter().chain([Guess::Extrapolated, Guess::Last]) {
+            self.begin_heat(nodes);
             let report = self.attempt(nodes, guess);
             done.take(&report);
-            if report.verdict == Verdict::Converged {
+            if report.verdict == Verdict::Converged
+                && let Some(report) = self.warm(nodes, report, done)
+            {
                 return Some(report);
             }
             done.retries += 1;
+        }
+        None
+    }
+
+    /// The heat of the steps before, at the end of one of so many nodes; the oil is as thin as after the last.
+    fn begin_heat(&mut self, nodes: f64) {
+        let times = times(self.plan, self.drive, self.solver.grid.dx, nodes);
+        if let Some(Heated { stage, warmth }) = &mut self.heated {
+            stage.begin(warmth, times);
+        }
+    }
+
+    /// Heat and temperatures of the step as it has been solved.
+    fn find_heat(&mut self) {
+        let law = self.plan.law_now(self.drive);
+        let (pressure, film) = self.solver.tried();
+        if let Some(Heated { stage, .. }) = &mut self.heated {
+            stage.find(&SolvedStep {
+                grid: &self.solver.grid,
+                scaling: &self.plan.scaling,
+                law: &law,
+                pressure,
+                film,
+                sliding_m_s: sliding_m_s(self.drive),
+            });
+        }
+    }
+
+    /// Solves the step again with the oil as thin as it has become, until its film error is below the tolerance as it
+    /// stands; `None`: it does not come to that.
+    fn warm(
+        &mut self,
+        nodes: f64,
+        mut report: NewtonReport,
+        done: &mut Attempted,
+    ) -> Option<NewtonReport> {
+        if self.heated.is_none() {
+            return Some(report);
+        }
+        for _ in 0..MOST_WARMED {
+            self.find_heat();
+            let flow = self.plan.flow_now(self.drive);
+            let feeds_back = (self.heated.as_ref()).is_some_and(|heated| heated.stage.feeds_back());
+            if !feeds_back || flow == Flow::Dry {
+                return Some(report);
+            }
+            let error =
+                self.with_conditions(|solver, _, conditions| solver.film_error(conditions));
+            report.film_error = report.film_error.max(error);
+            if error <= self.plan.tolerance(flow).film {
+                return Some(report);
+            }
+            report = self.attempt(nodes, Guess::Tried);
+            done.take(&report);
+            if report.verdict != Verdict::Converged {
+                return None;
+            }
         }
         None
     }
@@ -238,6 +332,7 @@ impl Mover<'_> {
     fn in_parts(&mut self, nodes: f64, before: (Drive, Travel), done: &mut Attempted) {
         let contact = self.state.clone();
         let yielded = self.yielded.as_deref().cloned();
+        let warmth = self.heated.as_ref().map(|heated| heated.warmth.clone());
         (*self.drive, *self.motion) = before.clone();
         self.in_halves(nodes, 1, done);
         if done.failure.is_some() {
@@ -245,6 +340,9 @@ impl Mover<'_> {
             (*self.drive, *self.motion) = before;
             if let (Some(now), Some(yielded)) = (&mut self.yielded, yielded) {
                 **now = yielded;
+            }
+            if let (Some(now), Some(warmth)) = (&mut self.heated, warmth) {
+                *now.warmth = warmth;
             }
             self.place_surfaces();
         }
@@ -276,6 +374,7 @@ impl Mover<'_> {
     /// Third rung: the safe settings. Fourth: kept and named, or not kept and the end of the run.
     fn safely(&mut self, nodes: f64, done: &mut Attempted) {
         done.safer += 1;
+        self.begin_heat(nodes);
         let report = self.with_conditions(|solver, state, conditions| {
             solver.attempt_safely(state, conditions, nodes)
         });
@@ -295,6 +394,7 @@ impl Mover<'_> {
             };
             done.failure = Some(StepFailure::Hopeless { x_m, y_m, asked });
         } else {
+            self.find_heat();
             self.commit(nodes, &report, done);
         }
     }
@@ -324,6 +424,9 @@ impl Mover<'_> {
             done.overlap = done.overlap.max(overlap);
         }
         self.solver.commit(self.state, nodes);
+        if let Some(Heated { stage, warmth }) = &mut self.heated {
+            stage.commit(warmth);
+        }
         let amplitudes = amplitudes(&self.plan.scaling, self.drive);
         if let (Some(yielded), Some(depth)) = (&mut self.yielded, self.solver.yielded())
             && yielded.take(
@@ -367,10 +470,10 @@ impl Mover<'_> {
         })
     }
 
-    fn with_conditions(
+    fn with_conditions<R>(
         &mut self,
-        solve: impl FnOnce(&mut Solver, &ContactState, &Conditions) -> NewtonReport,
-    ) -> NewtonReport {
+        solve: impl FnOnce(&mut Solver, &ContactState, &Conditions) -> R,
+    ) -> R {
         let value = |knob| self.drive.get(knob).now;
         let flow = self.plan.flow_now(self.drive);
         let (speed, slide_roll) = (value(Knob::EntrainmentMS), value(Knob::SlideRoll));
@@ -380,9 +483,12 @@ impl Mover<'_> {
         };
         // Of the knobs as this step has moved them.
         let law = self.plan.law_now(self.drive);
+        let stage = self.heated.as_ref().map(|heated| &*heated.stage);
+        (self.solver.newton.reynolds).warm(stage.and_then(HeatStage::thinner));
         let conditions = Conditions {
             medium: &medium,
             law: Some(&law),
+            shift: stage.map_or(&[], HeatStage::shift),
             load: self.plan.scaling.load(value(self.plan.scaling.load_knob())),
             tolerance: self.plan.tolerance(flow),
         };

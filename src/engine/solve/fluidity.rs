@@ -76,6 +76,39 @@ struct FluidityRun<'a> {
     ln_g_h: &'a mut [f64],
 }
 
+/// How much thinner warm oil is, node by node: ln η̄ → ln η̄ (1 + c/scale) + c (`physics/thinning.rs`).
+#[derive(Debug, Default)]
+pub(super) struct Warm {
+    /// c; empty: the oil is as cold as its bulk.
+    thinner: Vec<f64>,
+    /// 1/scale.
+    per_scale: f64,
+}
+
+/// A run of nodes of it.
+#[derive(Clone, Copy)]
+struct WarmRun<'a> {
+    thinner: &'a [f64],
+    per_scale: f64,
+}
+
+impl Warm {
+    /// From now on; none: the oil is cold.
+    pub(super) fn set(&mut self, thinner: Option<(&[f64], f64)>) {
+        let (field, per_scale) = thinner.unwrap_or_default();
+        self.thinner.clear();
+        self.thinner.extend_from_slice(field);
+        self.per_scale = per_scale;
+    }
+
+    fn run(&self, start: usize, n: usize) -> WarmRun<'_> {
+        WarmRun {
+            thinner: self.thinner.get(start..start + n).unwrap_or(&[]),
+            per_scale: self.per_scale,
+        }
+    }
+}
+
 /// Direction of a pressure flow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FlowDirection {
@@ -95,6 +128,8 @@ pub(super) struct Fluidity {
     is_directed: bool,
     /// What the flow along the sliding needs where the pressure is steep; no room before it is asked for.
     steep: Steep,
+    /// How warm the oil is.
+    pub(super) warm: Warm,
 }
 
 impl Fluidity {
@@ -105,6 +140,7 @@ impl Fluidity {
             across: None,
             is_directed: false,
             steep: Steep::default(),
+            warm: Warm::default(),
         }
     }
 
@@ -133,22 +169,24 @@ impl Fluidity {
         self.is_directed = two && slides;
         self.steep
             .set(directed.filter(|_| slides).map(|d| d.1 / grid.dx));
-        let states = || p.par_chunks(block).zip(h.par_chunks(block));
-        let along = self.along.blocks(block).zip(states());
+        let warm = &self.warm;
+        let states = p.par_chunks(block).zip(h.par_chunks(block)).enumerate();
+        let states = states.map(|(b, (p, h))| (p, h, warm.run(b * block, p.len())));
+        let along = self.along.blocks(block).zip(states);
         match (directed.filter(|_| slides), &mut self.across) {
-            (None, _) => along.for_each(|(along, (p, h))| one_values(medium, p, h, along)),
+            (None, _) => along.for_each(|(along, (p, h, warm))| one_values(medium, p, h, warm, along)),
             (Some((limit, _)), Some(across)) if two => {
                 let directions = along
                     .zip(self.steep.blocks(block))
                     .zip(across.blocks(block));
-                directions.for_each(|(((along, (p, h)), slid), across)| {
-                    directed_values(medium, limit, p, h, along, slid, across);
+                directions.for_each(|(((along, (p, h, warm)), slid), across)| {
+                    directed_values(medium, limit, p, h, warm, along, slid, across);
                 });
             }
             (Some((limit, _)), _) => {
                 let rows = along.zip(self.steep.blocks(block));
-                rows.for_each(|((along, (p, h)), slid)| {
-                    along_values(medium, limit, p, h, along, slid);
+                rows.for_each(|((along, (p, h, warm)), slid)| {
+                    along_values(medium, limit, p, h, warm, along, slid);
                 });
             }
         }
@@ -159,6 +197,11 @@ impl Fluidity {
             (FlowDirection::Across, Some(across)) if self.is_directed => across,
             (FlowDirection::Across | FlowDirection::Along, _) => &self.along,
         }
+    }
+
+    /// g along the sliding of all nodes.
+    pub(super) fn along(&self) -> &[f64] {
+        &self.along.g
     }
 
     /// What faces need of the nodes in `range`; `q` is ρ̄H³ of all nodes.
@@ -207,7 +250,13 @@ impl Fluidity {
 
 /// `ln η̄` and its slope of a run of nodes; one loop a law, so that the law is no branch inside of it.
 #[inline(always)]
-fn viscosities(law: Viscosity, p: &[f64], ln_eta: &mut [f64], slope: &mut [f64]) {
+fn viscosities(
+    law: Viscosity,
+    p: &[f64],
+    warm: WarmRun,
+    ln_eta: &mut [f64],
+    slope: &mut [f64],
+) {
     let n = p.len();
     let (ln_eta, slope) = (&mut ln_eta[..n], &mut slope[..n]);
     if let law @ Viscosity::Barus { .. } = law {
@@ -219,15 +268,23 @@ fn viscosities(law: Viscosity, p: &[f64], ln_eta: &mut [f64], slope: &mut [f64])
             (ln_eta[i], slope[i]) = law.ln_eta(p[i]);
         }
     }
+    if !warm.thinner.is_empty() {
+        let thinner = &warm.thinner[..n];
+        for i in 0..n {
+            let left = 1.0 + thinner[i] * warm.per_scale;
+            ln_eta[i] = ln_eta[i] * left + thinner[i];
+            slope[i] *= left;
+        }
+    }
 }
 
 dispatched! {
 /// One fluidity for both directions: the secant of Eyring's law, or Newtonian.
-fn one_values(medium: &Medium, p: &[f64], h: &[f64], out: FluidityRun) {
+fn one_values(medium: &Medium, p: &[f64], h: &[f64], warm: WarmRun, out: FluidityRun) {
     let n = p.len();
     let (h, g, ln_g) = (&h[..n], &mut out.g[..n], &mut out.ln_g[..n]);
     let (ln_g_p, ln_g_h) = (&mut out.ln_g_p[..n], &mut out.ln_g_h[..n]);
-    viscosities(medium.viscosity, p, ln_g, ln_g_p);
+    viscosities(medium.viscosity, p, warm, ln_g, ln_g_p);
     if medium.sliding > 0.0 {
         for i in 0..n {
             let (ln_eta, slope) = (ln_g[i], ln_g_p[i]);
@@ -278,12 +335,20 @@ fn shear(
 
 dispatched! {
 /// The fluidity along the sliding alone: of a line.
-fn along_values(medium: &Medium, limit: f64, p: &[f64], h: &[f64], out: FluidityRun, slid: Slid) {
+fn along_values(
+    medium: &Medium,
+    limit: f64,
+    p: &[f64],
+    h: &[f64],
+    warm: WarmRun,
+    out: FluidityRun,
+    slid: Slid,
+) {
     let n = p.len();
     let (h, g, ln_g) = (&h[..n], &mut out.g[..n], &mut out.ln_g[..n]);
     let (ln_g_p, ln_g_h) = (&mut out.ln_g_p[..n], &mut out.ln_g_h[..n]);
     let (sech2, sech2_p) = (&mut slid.sech2[..n], &mut slid.sech2_p[..n]);
-    viscosities(medium.viscosity, p, ln_g, ln_g_p);
+    viscosities(medium.viscosity, p, warm, ln_g, ln_g_p);
     for i in 0..n {
         let (ln_eta, slope) = (ln_g[i], ln_g_p[i]);
         let (grown, thin, by_p, by_h) = shear((medium.sliding, limit), (ln_eta, slope), p[i], h[i]);
@@ -305,6 +370,7 @@ fn directed_values(
     limit: f64,
     p: &[f64],
     h: &[f64],
+    warm: WarmRun,
     along: FluidityRun,
     slid: Slid,
     across: FluidityRun,
@@ -314,7 +380,7 @@ fn directed_values(
     let (x_g, x_ln, y_g, y_ln) = (&mut x.g[..n], &mut x.ln_g[..n], &mut y.g[..n], &mut y.ln_g[..n]);
     let (x_p, x_h, y_p, y_h) = (&mut x.ln_g_p[..n], &mut x.ln_g_h[..n], &mut y.ln_g_p[..n], &mut y.ln_g_h[..n]);
     let (sech2, sech2_p) = (&mut slid.sech2[..n], &mut slid.sech2_p[..n]);
-    viscosities(medium.viscosity, p, x_ln, x_p);
+    viscosities(medium.viscosity, p, warm, x_ln, x_p);
     for i in 0..n {
         let (ln_eta, slope) = (x_ln[i], x_p[i]);
         let (grown, thin, by_p, by_h) = shear((medium.sliding, limit), (ln_eta, slope), p[i], h[i]);

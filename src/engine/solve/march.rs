@@ -86,6 +86,8 @@ pub enum Guess<'a> {
     Last,
     /// This pressure and H0.
     Given(&'a [f64], f64),
+    /// What the last attempt of this step has found.
+    Tried,
 }
 
 /// Constants of a contact.
@@ -121,6 +123,8 @@ pub struct Conditions<'a> {
     pub medium: &'a Medium,
     /// Traction law (bodies of different materials only).
     pub law: Option<&'a TractionLaw>,
+    /// By how much ln η̄ of warm oil is shifted where it is sheared; empty: it is cold.
+    pub shift: &'a [f64],
     /// ∬P.
     pub load: f64,
     /// Tolerances.

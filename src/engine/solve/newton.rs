@@ -267,6 +267,12 @@ impl Newton {
         );
     }
 
+    /// Film error of an iterate that has been solved, with the oil as warm as it is now.
+    pub fn film_error(&mut self, problem: &Problem, iterate: &Iterate) -> f64 {
+        self.balance(problem, iterate);
+        self.sums(problem, iterate).film_error
+    }
+
     /// Marks the active nodes, P − F/D > 0 (where a step has lifted the bodies apart those with pressure: an
     /// empty set carries no load), and notes v = −P of the others; whether any of them carries pressure.
     fn split(&mut self, grid: &Grid, p: &[f64]) -> bool {

@@ -112,6 +112,16 @@ impl Reynolds {
         &self.rho
     }
 
+    /// From now on the oil is thinner by ln η̄ (1 + c/scale) + c: c of every node and 1/scale (`physics/thinning.rs`); `None`: cold.
+    pub fn warm(&mut self, thinner: Option<(&[f64], f64)>) {
+        self.fluidity.warm.set(thinner);
+    }
+
+    /// g along the sliding at the last call of [`Reynolds::properties`].
+    pub fn fluidities(&self) -> &[f64] {
+        self.fluidity.along()
+    }
+
     /// Evaluates the fluid laws at every node.
     pub fn properties(&mut self, grid: &Grid, medium: &Medium, p: &[f64], h: &[f64]) {
         let block = ROWS * grid.nx;

@@ -112,6 +112,8 @@ pub struct Sheared<'a> {
     pub deflection: &'a [f64],
     /// Its film.
     pub film: &'a [f64],
+    /// By how much ln η̄ of warm oil is shifted; empty: it is cold.
+    pub shift: &'a [f64],
     /// Whether the first guess keeps that u^s, or brings its own.
     pub keeps: bool,
 }
@@ -192,7 +194,8 @@ impl Shear {
             let inside = (1..self.nx - 1).contains(&(n % self.nx));
             let rise = if inside { p[n + 1] - p[n - 1] } else { 0.0 };
             let touches = sheared.film[n] <= law.contact_film;
-            *q = law.traction_of(p[n], h[n], 0.5 * rise / self.dx, touches);
+            let shift = sheared.shift.get(n).copied().unwrap_or(0.0);
+            *q = law.traction_of(p[n], h[n], 0.5 * rise / self.dx, shift, touches);
         }
         self.tangential.deflect(&self.traction, &mut self.next);
         let (mut residual, mut film) = (0.0, f64::MIN_POSITIVE);

@@ -11,6 +11,8 @@
 //! | γ | limiting shear stress over pressure | 1 |
 //! | μ_b | boundary friction | 1 |
 //!
+//! Warm oil is thinner by a shift of ln η̄ at every node, which the heat knows (`physics/thinning.rs`).
+//!
 //! Positive on body 1 when body 2 is the faster: it drags the slower body forward. Without sliding
 //! there is none. It is the mean over the film; the walls' own ± h ∂p/∂x/2 is left out. Where the pressure is steep the
 //! sliding needs less of it: the flow and the traction follow one law (`physics/eyring.rs`). The slope is that between
@@ -70,8 +72,8 @@ impl TractionLaw {
         p > 0.0 && h <= self.contact_film
     }
 
-    /// q of a row of nodes a distance `dx` apart.
-    pub fn traction_row(&self, dx: f64, p: &[f64], h: &[f64], q: &mut [f64]) {
+    /// q of a row of nodes a distance `dx` apart; `shift`: of ln η̄, empty where the oil is cold.
+    pub fn traction_row(&self, dx: f64, p: &[f64], h: &[f64], shift: &[f64], q: &mut [f64]) {
         match (self.direction == 0.0, self.film) {
             (true, _) => q.fill(0.0),
             (false, None) => {
@@ -79,19 +81,19 @@ impl TractionLaw {
                     *q = self.direction * self.boundary * p.max(0.0);
                 }
             }
-            (false, Some(film)) => film_row(self, &film, dx, p, h, q),
+            (false, Some(film)) => film_row(self, &film, dx, (p, h, shift), q),
         }
     }
 
     /// q of one node where the pressure has no slope.
     #[inline]
     pub fn traction(&self, p: f64, h: f64) -> f64 {
-        self.traction_of(p, h, 0.0, h <= self.contact_film)
+        self.traction_of(p, h, 0.0, 0.0, h <= self.contact_film)
     }
 
-    /// The same with ∂P/∂X, where it is known whether the node is in contact.
+    /// The same with ∂P/∂X and a shift of ln η̄, where it is known whether the node is in contact.
     #[inline]
-    pub fn traction_of(&self, p: f64, h: f64, slope: f64, touches: bool) -> f64 {
+    pub fn traction_of(&self, p: f64, h: f64, slope: f64, shift: f64, touches: bool) -> f64 {
         if self.direction == 0.0 || p <= 0.0 {
             return 0.0;
         }
@@ -103,7 +105,7 @@ impl TractionLaw {
         } else {
             self.contact_film
         };
-        let newtonian = film.rate / open * exp(self.viscosity.ln_eta(p).0);
+        let newtonian = film.rate / open * exp(self.viscosity.ln_eta(p).0 + shift);
         let shear = match film.eyring {
             Some(tau0) => tau0 * asinh(newtonian / tau0),
             None => newtonian,
@@ -119,7 +121,13 @@ impl TractionLaw {
 
 dispatched! {
 /// [`TractionLaw::traction`] of a row, without branches inside its loops.
-fn film_row(law: &TractionLaw, film: &FilmShear, dx: f64, p: &[f64], h: &[f64], q: &mut [f64]) {
+fn film_row(
+    law: &TractionLaw,
+    film: &FilmShear,
+    dx: f64,
+    (p, h, shift): (&[f64], &[f64], &[f64]),
+    q: &mut [f64],
+) {
     let n = q.len();
     let (p, h) = (&p[..n], &h[..n]);
     // One loop a law, so that the law is no branch inside of it.
@@ -132,6 +140,9 @@ fn film_row(law: &TractionLaw, film: &FilmShear, dx: f64, p: &[f64], h: &[f64], 
         for i in 0..n {
             q[i] = viscosity.ln_eta(p[i]).0;
         }
+    }
+    for (q, shift) in q.iter_mut().zip(shift) {
+        *q += shift;
     }
     for i in 0..n {
         let open = if h[i] > law.contact_film { h[i] } else { law.contact_film };
@@ -173,6 +184,7 @@ mod tests {
             .collect();
         let h: Vec<f64> = (0..40).map(|n| 0.02 * (0.5 * f64::from(n)).sin()).collect();
         let dx = 0.05;
+        let shift: Vec<f64> = (0..40).map(|n| -0.1 * f64::from(n % 7)).collect();
         for viscosity in [
             Viscosity::barus(2e-8, 1.5e9),
             Viscosity::roelands(0.08, 2e-8, 1.5e9),
@@ -192,7 +204,7 @@ mod tests {
                 };
                 let mut q = vec![f64::NAN; 40];
                 for law in [law, TractionLaw { film: None, ..law }] {
-                    law.traction_row(dx, &p, &h, &mut q);
+                    law.traction_row(dx, &p, &h, &shift, &mut q);
                     for n in 0..40 {
                         let inside = (1..39).contains(&n);
                         let slope = if inside {
@@ -200,7 +212,7 @@ mod tests {
                         } else {
                             0.0
                         };
-                        let node = law.traction_of(p[n], h[n], slope, h[n] <= 1e-4);
+                        let node = law.traction_of(p[n], h[n], slope, shift[n], h[n] <= 1e-4);
                         assert_eq!(q[n], node, "node {n}");
                     }
                 }
@@ -231,7 +243,7 @@ mod tests {
         assert!((law.traction(1.0, 0.1) - 0.08).abs() < 1e-15);
         // On a slope the sliding needs less; film and slope count, whatever the slope's sign.
         let [flat, up, down] =
-            [0.0, 0.5, -0.5].map(|slope| law.traction_of(1.0, 0.1, slope, false));
+            [0.0, 0.5, -0.5].map(|slope| law.traction_of(1.0, 0.1, slope, 0.0, false));
         assert!(
             up < flat && up == down && (flat / 0.08 - 1.0).abs() < 1e-12,
             "{flat} {up}"

@@ -32,6 +32,7 @@ fn solve(nodes: f64, tolerance: f64) -> Result<Solved, String> {
     let conditions = Conditions {
         medium: &Medium::DRY,
         law: None,
+        shift: &[],
         load: LOAD,
         tolerance: Tolerance {
             pressure: tolerance,

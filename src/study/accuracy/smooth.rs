@@ -81,6 +81,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<SmoothFilm, String> {
     let conditions = Conditions {
         medium: &medium,
         law: None,
+        shift: &[],
         load: LOAD,
         tolerance: Tolerance {
             pressure: tolerance,

@@ -139,6 +139,7 @@ pub(super) fn measure_smooth(
         law: &plan.law,
         p: &contact.pressure,
         h: &contact.film,
+        shift: &[],
         ellipse: (size, size * plan.scaling.b_over_a),
     };
     let (mut traction, mut rows) = (vec![0.0; grid.len()], vec![RowSums::default(); grid.ny]);

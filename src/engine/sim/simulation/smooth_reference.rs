@@ -101,6 +101,7 @@ fn advance_smooth(
             given: None,
             yielded: None,
             worn: None,
+            heated: None,
         }
         .advance(usual)
     });

@@ -9,7 +9,7 @@ use crate::plan::TimeDependence;
 use crate::sim::pace::Stepping;
 use crate::sim::sim_plan::{DEVELOP, SimPlan};
 use crate::sim::state::Phase;
-use crate::sim::stepping::{Attempted, Mover};
+use crate::sim::stepping::{Attempted, Heated, Mover};
 use crate::sim::work::Work;
 use crate::sim::{Knob, State, Stats, StepError};
 
@@ -174,6 +174,9 @@ fn advance(
             given,
             yielded,
             worn: state.worn.as_ref().filter(|_| !is_smooth),
+            heated: (work.heat.as_mut().filter(|_| !is_smooth))
+                .zip(state.warmth.as_mut())
+                .map(|(stage, warmth)| Heated { stage, warmth }),
         }
         .advance(nodes)
     });

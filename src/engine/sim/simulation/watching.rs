@@ -5,12 +5,12 @@ use crate::physics::felt::felt_contacts;
 use crate::plan::TimeDependence;
 use crate::sim::counting::{contacts, felt_at_points};
 use crate::sim::fatigue_stage::Now;
-use crate::sim::heat_stage::Heating;
+use crate::sim::heat_stage::{SolvedStep, Warmth};
 use crate::sim::measure::{Fields, Measured, measure};
 use crate::sim::roughness::Roughness;
 use crate::sim::sim_plan::SimPlan;
 use crate::sim::state::Phase;
-use crate::sim::stepping::{Attempted, place_surfaces};
+use crate::sim::stepping::{Attempted, place_surfaces, sliding_m_s, times};
 use crate::sim::work::Work;
 use crate::sim::yielded::Yielded;
 use crate::sim::{Knob, LifeEstimate, State, Stats};
@@ -26,6 +26,9 @@ pub(super) fn watch(
     let before = state.watched;
     state.watched = state.motion.travelled;
     let on_fine = work.solver.grid.nx == plan.decided.domain.nodes;
+    if on_fine {
+        heat(plan, state, work, attempted);
+    }
     let measured = measure_state(plan, state, work);
     let size = plan.size_now(&state.drive);
     let looks = on_fine && state.phase.has_stress();
@@ -40,35 +43,51 @@ pub(super) fn watch(
         }
     }
     if looks {
-        heat(plan, state, work, attempted);
         sample_life(plan, state, work, stats);
     }
     publish(plan, state, work, attempted, &measured);
 }
 
-/// How warm the surfaces are at the end of the step. While a knob walks they stay as they are: each of its steps would need tables of its own.
+/// Counts how warm the surfaces are at the end of the step, which has warmed them unless the contact stands still: then they
+/// are warmed here until they are as warm as they get.
 fn heat(plan: &SimPlan, state: &mut State, work: &mut Work, attempted: &Attempted) {
     let (Some(stage), Some(warmth)) = (&mut work.heat, &mut state.warmth) else {
         return;
     };
-    if state.drive.is_walking() || attempted.nodes == 0.0 {
+    let is_start_up = matches!(state.phase, Phase::Smooth { .. });
+    if is_start_up || attempted.nodes == 0.0 {
         return;
     }
-    let u_m_s = state.drive.get(Knob::EntrainmentMS).now;
-    let s = state.drive.get(Knob::SlideRoll).now;
-    let size = plan.size_now(&state.drive);
-    let is_steady = matches!(plan.decided.time_dependence, TimeDependence::Steady { .. });
-    let step = Heating {
-        grid: &work.solver.grid,
+    let grid = &work.solver.grid;
+    let law = plan.law_now(&state.drive);
+    let step = SolvedStep {
+        grid,
+        scaling: &plan.scaling,
+        law: &law,
         pressure: &state.contact.pressure,
         film: &state.contact.film,
-        traction: &work.traction,
-        dt_s: attempted.nodes * work.solver.grid.dx * plan.scaling.a_m / u_m_s,
-        speeds_m_s: [u_m_s * (1.0 - 0.5 * s), u_m_s * (1.0 + 0.5 * s)],
-        ellipse: (size, size * plan.scaling.b_over_a),
-        steady: is_steady && state.phase == Phase::Passage,
+        sliding_m_s: sliding_m_s(&state.drive),
     };
-    work.pool.install(|| stage.advance(plan, warmth, &step));
+    let times = times(plan, &state.drive, grid.dx, attempted.nodes);
+    let is_steady = matches!(plan.decided.time_dependence, TimeDependence::Steady { .. });
+    let made = match state.phase {
+        Phase::Passage => state.step,
+        _ => state.start_up_steps.0,
+    };
+    if is_steady && !state.drive.is_walking() {
+        let due = made.is_multiple_of((1.0 / grid.dx).ceil() as u64);
+        work.pool.install(|| {
+            if due {
+                stage.soak(warmth, times, &step);
+            } else if attempted.newton == 0 {
+                stage.step(warmth, times, &step);
+            }
+        });
+    }
+    if state.phase == Phase::Passage && !state.drive.is_walking() {
+        let size = plan.size_now(&state.drive);
+        stage.count(warmth, grid, (size, size * plan.scaling.b_over_a));
+    }
 }
 
 /// The volume under the slice's surface, with the counts up to it.
@@ -134,6 +153,8 @@ pub(super) fn look_for_orbit(
 pub(super) fn measure_state(plan: &SimPlan, state: &State, work: &mut Work) -> Measured {
     let law = plan.law_now(&state.drive);
     let scale = plan.size_now(&state.drive);
+    let is_cold = matches!(state.phase, Phase::Smooth { .. });
+    let warmth = state.warmth.as_ref().filter(|_| !is_cold);
     let state = &state.contact;
     work.traction.resize(work.solver.grid.len(), 0.0);
     let fields = Fields {
@@ -141,6 +162,7 @@ pub(super) fn measure_state(plan: &SimPlan, state: &State, work: &mut Work) -> M
         law: &law,
         p: &state.pressure,
         h: &state.film,
+        shift: warmth.map_or(&[], Warmth::shift),
         ellipse: (scale, scale * plan.scaling.b_over_a),
     };
     let (traction, rows) = (&mut work.traction, &mut work.row_sums);

@@ -178,8 +178,11 @@ impl Solver {
         guess: Guess,
     ) -> NewtonReport {
         let history = &state.history;
-        self.trial.h0 = history.h0[0];
+        if guess != Guess::Tried {
+            self.trial.h0 = history.h0[0];
+        }
         match guess {
+            Guess::Tried => {}
             Guess::Extrapolated => history.predict(&self.grid, nodes, &mut self.trial.pressure),
             Guess::Last => self.trial.pressure.copy_from_slice(&history.pressure_1),
             Guess::Given(pressure, h0) => {
@@ -199,6 +202,7 @@ impl Solver {
                 law,
                 deflection: &state.sheared,
                 film: &state.film,
+                shift: conditions.shift,
                 keeps: guess == Guess::Last,
             }),
             gap: &self.gap,
@@ -215,6 +219,31 @@ impl Solver {
                 h0: &mut self.trial.h0,
             },
         )
+    }
+
+    /// Film error of the last attempt, a step with a film, once its oil is as warm as it is now.
+    pub fn film_error(&mut self, conditions: &Conditions) -> f64 {
+        let problem = Problem {
+            grid: &self.grid,
+            medium: conditions.medium,
+            sheared: None,
+            gap: &self.gap,
+            c_star: &self.c_star,
+            s: &self.s,
+            load: conditions.load,
+            tolerance: conditions.tolerance,
+        };
+        let iterate = Iterate {
+            p: &mut self.trial.pressure,
+            h: &mut self.trial.film,
+            h0: &mut self.trial.h0,
+        };
+        self.newton.film_error(&problem, &iterate)
+    }
+
+    /// Pressure and film of the last attempt.
+    pub fn tried(&self) -> (&[f64], &[f64]) {
+        (&self.trial.pressure, &self.trial.film)
     }
 
     /// Makes the preconditioner for an effective step `s`.
