@@ -54,7 +54,7 @@ impl Heat {
             return Some(Thinning::roelands(eta, exponent, bulk));
         }
         if let Some(per_k) = self.viscosity_temperature_per_k {
-            return Some(Thinning::Exponential { per_k });
+            return Some(Thinning::exponential(per_k));
         }
         let celsius = oil.temperature_c?;
         let at = |celsius: f64| {
@@ -66,7 +66,7 @@ impl Heat {
         };
         let per_k = (at(celsius - 1.0) / at(celsius + 1.0)).ln() / 2.0;
         Some(match oil.viscosity_law {
-            ViscosityLaw::Barus => Thinning::Exponential { per_k },
+            ViscosityLaw::Barus => Thinning::exponential(per_k),
             ViscosityLaw::Roelands => Thinning::roelands_of_slope(eta, per_k, bulk),
         })
     }

@@ -15,11 +15,11 @@ use super::scaling::Scaling;
 use crate::math::elementary::exp;
 use crate::math::grid::Grid;
 use crate::physics::heat_estimate::{blok_k, inlet_factor};
+use crate::physics::thinning::{Sheared, Thinning, thinned_row};
 use crate::saved::saved;
 use crate::scene::Scene;
-use crate::physics::thinning::{Sheared, Thinning};
 use crate::solve::heat::{Heat, HeatState, Thermal};
-use crate::solve::traction::TractionLaw;
+use crate::solve::traction::{FilmShear, TractionLaw};
 
 /// m² K/W between surfaces that nothing joins.
 const APART: f64 = 1e3;
@@ -46,6 +46,8 @@ pub(super) struct HeatStage {
     /// q, and of each row the change of the heat and the heat.
     traction: Vec<f64>,
     changes: Vec<[f64; 2]>,
+    /// Of each row, what its nodes are sheared by.
+    nodes: Vec<[Vec<f64>; 5]>,
     now: Film,
 }
 
@@ -137,6 +139,7 @@ impl HeatStage {
             now: Film::cold(grid.len()),
             traction: vec![0.0; grid.len()],
             changes: vec![[0.0; 2]; grid.ny],
+            nodes: vec![std::array::from_fn(|_| vec![0.0; grid.nx]); grid.ny],
             thinning,
         })
     }
@@ -169,7 +172,8 @@ impl HeatStage {
     /// A step begins; its film is as warm as the last one's.
     pub(super) fn begin(&mut self, warmth: &mut Warmth, times: Times) {
         self.now.copy(&warmth.film);
-        self.heat.begin(&mut warmth.state, times.dt_s, times.speeds_m_s);
+        self.heat
+            .begin(&mut warmth.state, times.dt_s, times.speeds_m_s);
     }
 
     /// Heat and temperatures of the step that has begun, as it has been solved last.
@@ -177,8 +181,9 @@ impl HeatStage {
         self.resist(step);
         for round in 0..MOST_ROUNDS {
             self.shear(step);
-            let (change, all) = (self.changes.iter())
-                .fold((0.0, 0.0), |(change, all), row| (change + row[0], all + row[1]));
+            let (change, all) = (self.changes.iter()).fold((0.0, 0.0), |(change, all), row| {
+                (change + row[0], all + row[1])
+            });
             // Heat that is what it was has warmed the walls already.
             if round > 0 && change <= SAME * all {
                 break;
@@ -225,20 +230,23 @@ impl HeatStage {
         (made.par_chunks_mut(nx).zip(middle_k.par_chunks_mut(nx)))
             .zip(shift.par_chunks_mut(nx).zip(thinner.par_chunks_mut(nx)))
             .zip(self.traction.par_chunks_mut(nx).zip(&mut self.changes))
-            .zip(walls_k.par_chunks(nx))
+            .zip(walls_k.par_chunks(nx).zip(&mut self.nodes))
             .enumerate()
-            .for_each(|(j, ((((made, middle), (shift, thinner)), (q, change)), walls))| {
-                let row = Row {
-                    j,
-                    walls,
-                    made,
-                    middle,
-                    q,
-                    shift,
-                    thinner,
-                };
-                *change = node.row(step, row);
-            });
+            .for_each(
+                |(j, ((((made, middle), (shift, thinner)), (q, change)), (walls, nodes)))| {
+                    let row = Row {
+                        j,
+                        walls,
+                        made,
+                        middle,
+                        q,
+                        nodes,
+                        shift,
+                        thinner,
+                    };
+                    *change = node.row(step, row);
+                },
+            );
     }
 
     /// Heats a contact that stands still until it is as warm as it gets; the step has been committed.
@@ -272,8 +280,14 @@ impl HeatStage {
     /// Counts the step that has been committed; `ellipse`: Hertz half-widths of now, in a.
     pub(super) fn count(&self, warmth: &mut Warmth, grid: &Grid, ellipse: (f64, f64)) {
         let oil = self.now.walls_k.iter().zip(&self.now.middle_k);
-        let warmest = oil.map(|(walls, middle)| walls + middle).fold(0.0, f64::max);
-        for (greatest, now) in warmth.greatest_k.iter_mut().zip([self.greatest_k(), warmest]) {
+        let warmest = oil
+            .map(|(walls, middle)| walls + middle)
+            .fold(0.0, f64::max);
+        for (greatest, now) in warmth
+            .greatest_k
+            .iter_mut()
+            .zip([self.greatest_k(), warmest])
+        {
             *greatest = greatest.max(now);
         }
         let (mean, share) = self.means(grid, ellipse);
@@ -326,6 +340,7 @@ struct Row<'a> {
     made: &'a mut [f64],
     middle: &'a mut [f64],
     q: &'a mut [f64],
+    nodes: &'a mut [Vec<f64>; 5],
     shift: &'a mut [f64],
     thinner: &'a mut [f64],
 }
@@ -356,71 +371,154 @@ impl NodeLaw {
     }
 
     /// Of a row; how much its heat changes, and how much it is.
-    fn row(&self, step: &SolvedStep, row: Row) -> [f64; 2] {
+    fn row(&self, step: &SolvedStep, mut row: Row) -> [f64; 2] {
         let (nx, dx) = (step.grid.nx, step.grid.dx);
         let here = row.j * nx..(row.j + 1) * nx;
         let (p, h) = (&step.pressure[here.clone()], &step.film[here]);
-        if let Some(thinning) = &self.thinning {
-            for i in 0..nx {
-                let sheared = self.sheared(step.law, p[i], h[i], row.walls[i], row.made[i]);
-                let found = sheared.map(|node| node.thinned(thinning)).unwrap_or_default();
-                (row.shift[i], row.middle[i]) = (found.shift, found.middle_k);
-            }
+        let film = step.law.film.filter(|_| step.law.direction != 0.0);
+        if let Some((thinning, film)) = self.thinning.as_ref().zip(film) {
+            self.thin(thinning, step.law, &film, (p, h), &mut row);
+        } else {
+            row.shift.fill(0.0);
         }
         step.law.traction_row(dx, p, h, row.shift, row.q);
+        let Row {
+            walls,
+            made,
+            middle,
+            q,
+            nodes,
+            shift,
+            thinner,
+            ..
+        } = row;
+        let [flowing, resistance, ..] = nodes;
+        match &step.law.film {
+            Some(film) => flow_heat_row(step.law, film, (self.flow, dx), [p, h, q, shift], flowing),
+            None => flowing.fill(0.0),
+        }
+        for (resistance, h) in resistance.iter_mut().zip(h) {
+            *resistance = self.resistance * h.max(0.0);
+        }
         let mut sums = [0.0; 2];
         for i in 0..nx {
-            let sliding = row.q[i].abs() * self.unit;
-            let resistance = self.resistance * h[i].max(0.0);
-            let slope = if i > 0 && i + 1 < nx {
-                0.5 * (p[i + 1] - p[i - 1]) / dx
-            } else {
-                0.0
-            };
-            let flowing = self.flow_heat(step.law, [p[i], h[i], slope], row.q[i], row.shift[i]);
-            if self.thinning.is_none() {
-                row.middle[i] = sliding * resistance / 8.0;
+            let sliding = q[i].abs() * self.unit;
+            if self.thinning.is_none() || film.is_none() {
+                middle[i] = sliding * resistance[i] / 8.0;
             }
-            row.middle[i] += MIDDLE_OF_FLOW * flowing * resistance;
-            let made = sliding + flowing;
-            sums[0] += (made - row.made[i]).abs();
-            sums[1] += made;
-            row.made[i] = made;
-            if let Some(thinning) = &self.thinning {
-                let over = FLOW_OF_SLIDING * sliding + FLOW_OF_FLOW * flowing;
-                row.thinner[i] = thinning.at_rest(row.walls[i] + over * resistance);
-            }
+            middle[i] += MIDDLE_OF_FLOW * flowing[i] * resistance[i];
+            let now = sliding + flowing[i];
+            sums[0] += (now - made[i]).abs();
+            sums[1] += now;
+            made[i] = now;
+        }
+        if let Some(thinning) = &self.thinning {
+            thinner_row(thinning, [walls, made, flowing, resistance], thinner);
         }
         sums
     }
 
-    /// Q_p of a node with P, H and ∂P/∂X whose traction is `q` and whose ln η̄ is shifted, W/m².
-    fn flow_heat(&self, law: &TractionLaw, [p, h, slope]: [f64; 3], q: f64, shift: f64) -> f64 {
-        let Some(film) = law.film.filter(|_| p > 0.0 && h > law.contact_film) else {
-            return 0.0;
-        };
-        let ln_eta = law.viscosity.ln_eta(p).0 + shift;
-        // Sheared oil flows the more easily by cosh σ (`physics/fluid.rs`).
-        let sigma = film.eyring.map_or(0.0, |tau0| q.abs() / tau0);
-        let fluidity = 0.5 * (exp(sigma - ln_eta) + exp(-sigma - ln_eta));
-        self.flow * h.powi(3) * slope * slope * fluidity
-    }
-
-    /// A node of the film that is sheared; `None`: nothing is, or nothing flows there.
-    fn sheared(&self, law: &TractionLaw, p: f64, h: f64, walls_k: f64, made: f64) -> Option<Sheared> {
-        let film = law.film.filter(|_| law.direction != 0.0 && p > 0.0 && h > law.contact_film)?;
-        let ln_eta = law.viscosity.ln_eta(p).0;
-        Some(Sheared {
-            newtonian: film.rate / h * exp(ln_eta),
+    /// Shift of ln η̄ and rise in the middle of every node of a row.
+    fn thin(
+        &self,
+        thinning: &Thinning,
+        law: &TractionLaw,
+        film: &FilmShear,
+        (p, h): (&[f64], &[f64]),
+        row: &mut Row,
+    ) {
+        let [newtonian, ln_eta, limit, warms_k, of_stress] = &mut *row.nodes;
+        newtonian_row(law, film, (p, h), newtonian, ln_eta);
+        for i in 0..p.len() {
+            limit[i] = film.limit * p[i].max(0.0);
+            warms_k[i] = self.unit * self.resistance * h[i].max(0.0);
+            of_stress[i] = row.made[i] / self.unit;
+        }
+        let sheared = Sheared {
+            newtonian,
             ln_eta,
-            eyring: film.eyring,
-            limit: film.limit * p,
-            warms_k: self.unit * self.resistance * h,
-            walls_k,
-            of_stress: made / self.unit,
+            limit,
+            eyring: film.eyring.unwrap_or(f64::INFINITY),
+            warms_k,
+            walls_k: row.walls,
+            of_stress,
             walls_grow_k: self.walls_grow * self.unit,
-        })
+        };
+        thinned_row(thinning, &sheared, row.shift, row.middle);
     }
+}
+
+dispatched! {
+/// Stress of cold Newtonian oil and its ln η̄ of every node of a row; no stress where no film is sheared.
+fn newtonian_row(
+    law: &TractionLaw,
+    film: &FilmShear,
+    (p, h): (&[f64], &[f64]),
+    newtonian: &mut [f64],
+    ln_eta: &mut [f64],
+) {
+    let n = p.len();
+    let (h, newtonian, ln_eta) = (&h[..n], &mut newtonian[..n], &mut ln_eta[..n]);
+    let viscosity = law.viscosity;
+    for i in 0..n {
+        ln_eta[i] = viscosity.ln_eta(p[i]).0;
+    }
+    for i in 0..n {
+        let is_film = p[i] > 0.0 && h[i] > law.contact_film;
+        let open = if is_film { h[i] } else { 1.0 };
+        let stress = film.rate / open * exp(ln_eta[i]);
+        newtonian[i] = if is_film { stress } else { 0.0 };
+    }
+}
+}
+
+dispatched! {
+/// Q_p of every node of a row: `unit` H³ g (∂P/∂X)².
+fn flow_heat_row(
+    law: &TractionLaw,
+    film: &FilmShear,
+    (unit, dx): (f64, f64),
+    [p, h, q, shift]: [&[f64]; 4],
+    flowing: &mut [f64],
+) {
+    let n = p.len();
+    let (h, q, shift, flowing) = (&h[..n], &q[..n], &shift[..n], &mut flowing[..n]);
+    let per_tau0 = film.eyring.map_or(0.0, |tau0| 1.0 / tau0);
+    let viscosity = law.viscosity;
+    for i in 0..n {
+        flowing[i] = viscosity.ln_eta(p[i]).0 + shift[i];
+    }
+    for i in 0..n {
+        // Sheared oil flows the more easily by cosh σ (`physics/fluid.rs`).
+        let sigma = q[i].abs() * per_tau0;
+        flowing[i] = 0.5 * (exp(sigma - flowing[i]) + exp(-sigma - flowing[i]));
+    }
+    for i in 1..n - 1 {
+        let slope = 0.5 * (p[i + 1] - p[i - 1]) / dx;
+        let heat = unit * h[i] * h[i] * h[i] * slope * slope * flowing[i];
+        flowing[i] = if p[i] > 0.0 && h[i] > law.contact_film { heat } else { 0.0 };
+    }
+    flowing[0] = 0.0;
+    flowing[n - 1] = 0.0;
+}
+}
+
+dispatched! {
+/// c of the flow of every node of a row, from the rise of its walls, all heat, that of the flow, and h/k_f.
+fn thinner_row(
+    thinning: &Thinning,
+    [walls, made, flowing, resistance]: [&[f64]; 4],
+    thinner: &mut [f64],
+) {
+    let n = thinner.len();
+    let (walls, made, flowing) = (&walls[..n], &made[..n], &flowing[..n]);
+    let resistance = &resistance[..n];
+    for i in 0..n {
+        let sliding = made[i] - flowing[i];
+        let over = FLOW_OF_SLIDING * sliding + FLOW_OF_FLOW * flowing[i];
+        thinner[i] = thinning.at_rest(walls[i] + over * resistance[i]);
+    }
+}
 }
 
 impl Warmth {

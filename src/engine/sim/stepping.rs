@@ -313,8 +313,7 @@ impl Mover<'_> {
             if !feeds_back || flow == Flow::Dry {
                 return Some(report);
             }
-            let error =
-                self.with_conditions(|solver, _, conditions| solver.film_error(conditions));
+            let error = self.with_conditions(|solver, _, conditions| solver.film_error(conditions));
             report.film_error = report.film_error.max(error);
             if error <= self.plan.tolerance(flow).film {
                 return Some(report);

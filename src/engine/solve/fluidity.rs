@@ -174,7 +174,9 @@ impl Fluidity {
         let states = states.map(|(b, (p, h))| (p, h, warm.run(b * block, p.len())));
         let along = self.along.blocks(block).zip(states);
         match (directed.filter(|_| slides), &mut self.across) {
-            (None, _) => along.for_each(|(along, (p, h, warm))| one_values(medium, p, h, warm, along)),
+            (None, _) => {
+                along.for_each(|(along, (p, h, warm))| one_values(medium, p, h, warm, along))
+            }
             (Some((limit, _)), Some(across)) if two => {
                 let directions = along
                     .zip(self.steep.blocks(block))
@@ -250,13 +252,7 @@ impl Fluidity {
 
 /// `ln η̄` and its slope of a run of nodes; one loop a law, so that the law is no branch inside of it.
 #[inline(always)]
-fn viscosities(
-    law: Viscosity,
-    p: &[f64],
-    warm: WarmRun,
-    ln_eta: &mut [f64],
-    slope: &mut [f64],
-) {
+fn viscosities(law: Viscosity, p: &[f64], warm: WarmRun, ln_eta: &mut [f64], slope: &mut [f64]) {
     let n = p.len();
     let (ln_eta, slope) = (&mut ln_eta[..n], &mut slope[..n]);
     if let law @ Viscosity::Barus { .. } = law {

@@ -27,8 +27,9 @@ const SPACING: f64 = 0.7;
 const REACH: [f64; 2] = [0.25, 1024.0];
 /// y beyond both ends.
 const TAILS: [f64; 2] = [2.0, 1.2];
-/// Nodes of the integrals over a step, and from which νΔt on they are done by their limit.
-const NODES: usize = 40;
+/// Nodes of the integrals over a step up to |νΔt| = 4 and beyond; from which Re νΔt on they are done by their limit.
+const NODES: [usize; 2] = [14, 40];
+const NEAR: f64 = 4.0;
 const LIMIT: f64 = 60.0;
 
 /// What does not change with the wave: λ_j in 1/s and w_j.
@@ -76,7 +77,7 @@ impl Symbols {
         exponentials: &[[f64; 2]],
     ) -> Self {
         let scale = thermal.diffusivity.sqrt() / thermal.conductivity;
-        let rule = gauss_legendre(NODES);
+        let rules = NODES.map(gauss_legendre);
         let (n, zero) = (plane.len(), Complex::default());
         let (mut own, mut last) = (vec![zero; n], vec![zero; n]);
         let mut modes = vec![[Complex::default(); 3]; n * exponentials.len()];
@@ -90,7 +91,8 @@ impl Symbols {
                     let spread = thermal.diffusivity * (kx * kx + ky * ky);
                     let mu = Complex::new(spread, kx * v_m_s) * dt_s;
                     let nu = Complex::new(spread, kx * (v_m_s - u_m_s)) * dt_s;
-                    let [whole, first] = over_step(&rule, nu).map(|e| e * (scale * dt_s.sqrt()));
+                    let rule = &rules[usize::from(nu.norm_sqr() > NEAR * NEAR)];
+                    let [whole, first] = over_step(rule, nu).map(|e| e * (scale * dt_s.sqrt()));
                     let turn = Complex::new(0.0, -kx * u_m_s * dt_s).exp();
                     own[k] = whole - first;
                     last[k] = first * turn;
