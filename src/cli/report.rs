@@ -229,14 +229,18 @@ fn add_heat(lines: &mut Lines, s: &Summary) {
             sig(mean, 3)
         ),
     );
-    if let Some(factor) = s.inlet_heating_factor {
-        lines.add(
-            "",
-            format!(
-                "heated in the inlet the film would be {} times as thick (Wilson & Sheu 1983); here film and friction are isothermal",
-                sig(factor, 3)
-            ),
-        );
+    let oil = known(s.film_temperature_max_k, |k| {
+        format!("oil up to {} degrees C", sig(k - 273.15, 4))
+    });
+    let inlet = match s.inlet_heating_factor {
+        Some(factor) => format!(
+            "; film and friction are those of the warm oil; a smooth film by Wilson & Sheu (1983): {} times the cold one",
+            sig(factor, 3)
+        ),
+        None => "; film and friction are those of cold oil".to_owned(),
+    };
+    if !oil.is_empty() {
+        lines.add("", format!("{oil}{inlet}"));
     }
 }
 

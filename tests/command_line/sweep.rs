@@ -235,6 +235,7 @@ fn what_is_asked_for_has_its_columns() {
         "flash_temperature_max_k",
         "flash_temperature_mean_k",
         "contact_temperature_max_k",
+        "film_temperature_max_k",
         "heat_share_1",
         "flash_temperature_blok_k",
     ];

@@ -157,6 +157,7 @@ fn unlike_bodies_slide_alike_by_both_paths() {
         law: &law,
         deflection: &sheared,
         film: &march.state.film,
+        shift: &[],
         keeps: false,
     };
     let answer = (&mut p[..], &mut h[..], &mut h0);

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::{LINE_ROWS, LifePlan, OtherFilms, Plan, Symmetry, TimeDependence, WavePlan};
 use crate::math::number::{fixed, length};
-use crate::scene::{ContactKind, CycleBasis, EyringFlow, Spread};
+use crate::scene::{ContactKind, CycleBasis, EyringFlow, Spread, Warming};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -27,11 +27,11 @@ impl fmt::Display for Plan {
             (None, Some(_)) => ("yield", "elastic"),
             (None, None) => ("wear, yield", "elastic"),
         };
-        let (heat, isothermal) = if self.heats {
-            ("", "film and friction isothermal")
-        } else {
-            ("heat, ", "isothermal")
+        let heat = match self.warming {
+            Warming::None => "heat, ",
+            Warming::Surfaces | Warming::SurfacesAndOil => "",
         };
+        let isothermal = self.warming.words();
         let stage = format!("{heat}{stage}");
         writeln!(
             f,
@@ -222,10 +222,13 @@ impl Plan {
         if let Some((hardness_pa, flows)) = self.yielding {
             lines.push(yielding_text(hardness_pa, flows));
         }
-        if self.heats {
-            lines.push(
-                "flash temperature of both surfaces by moving sources, every step".to_owned(),
-            );
+        if self.warming != Warming::None {
+            let oil = match self.warming {
+                Warming::SurfacesAndOil => "; film and friction of the warm oil",
+                Warming::None | Warming::Surfaces => "",
+            };
+            let surfaces = "flash temperature of both surfaces by moving sources, every step";
+            lines.push(format!("{surfaces}{oil}"));
         }
         if let Some(wear) = self.wear {
             lines.push(wear.text());

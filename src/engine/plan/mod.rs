@@ -32,7 +32,7 @@ use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
 use crate::scene::{
     ContactKind, EyringFlow, Lubricant, MINIMUM_HARDNESS, MapReport, Order, OrderAsked, Record,
-    Scene, StressMeasure, Surface,
+    Scene, StressMeasure, Surface, Warming,
 };
 
 /// Everything that is decided before the first step.
@@ -90,8 +90,8 @@ pub struct Plan {
     pub traction_deflection: Option<TractionDeflection>,
     /// Pressure at which the softer body flows, Pa, and which bodies do; `None`: both stay elastic.
     pub yielding: Option<(f64, [bool; 2])>,
-    /// Whether surface temperatures are computed.
-    pub heats: bool,
+    /// What of the heat is followed.
+    pub warming: Warming,
     /// What wears; `None`: nothing.
     pub wear: Option<WearPlan>,
     /// Subsurface stress.
@@ -317,7 +317,7 @@ impl Plan {
             relief_lines: scene.surfaces().map(Surface::relief_lines),
             traction_deflection: decide::traction_deflection(scene),
             yielding: scene.hardness_pa().map(|pa| (pa, scene.softer())),
-            heats: scene.heat.is_some(),
+            warming: scene.warming(),
             wear: WearPlan::new(scene, &hertz),
             stress: decide::stress_plan(scene, &hertz, &mut warnings),
             life: None,
@@ -421,10 +421,11 @@ impl Plan {
                 as u64,
             volumes,
         });
-        if self.heats {
-            cost.with_heat(self.kind, self.domain.nodes, self.steps)
-        } else {
-            cost
+        match self.warming {
+            Warming::None => cost,
+            Warming::Surfaces | Warming::SurfacesAndOil => {
+                cost.with_heat(self.kind, self.domain.nodes, self.steps)
+            }
         }
     }
 }

@@ -2,9 +2,48 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Scene;
 use super::lubricant::Lubricant;
 use crate::physics::fluid::ViscosityLaw;
 use crate::physics::thinning::Thinning;
+
+/// What of the heat a run follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Warming {
+    /// Nothing.
+    #[default]
+    None,
+    /// How warm the surfaces become: dry, or nobody says how the oil thins.
+    Surfaces,
+    /// And how much thinner that makes the oil.
+    SurfacesAndOil,
+}
+
+impl Warming {
+    /// In a list of what the model is.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::None => "isothermal",
+            Self::Surfaces => "film and friction isothermal",
+            Self::SurfacesAndOil => "oil carries no heat along",
+        }
+    }
+}
+
+impl Scene {
+    /// What of the heat a run of this scene follows.
+    pub fn warming(&self) -> Warming {
+        let thins = |heat: &Heat| {
+            let oil = self.lubricant.as_ref();
+            oil.and_then(|oil| heat.thinning(oil)).is_some()
+        };
+        match &self.heat {
+            None => Warming::None,
+            Some(heat) if thins(heat) => Warming::SurfacesAndOil,
+            Some(_) => Warming::Surfaces,
+        }
+    }
+}
 
 /// `[heat]`: the bulk, and the oil.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

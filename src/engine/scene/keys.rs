@@ -242,7 +242,7 @@ pub const SECTIONS: &[Section] = &[
     Section {
         path: "heat",
         need: Optional("no temperatures"),
-        doc: "Flash temperature of both surfaces by moving sources of heat. Film and friction stay isothermal.",
+        doc: "Flash temperature of both surfaces by moving sources of heat. Where it is said how the oil thins (by coefficient, exponent or lubricant.vg), film and friction are those of the warm oil.",
         keys: &[
             key("bulk_k", "K", Number(150.0, 1000.0), Defaulted, "temperature of both bodies and of the oil that enters"),
             key("thermal_conductivity_w_mk", "W/(m K)", Number(0.001, 10.0), Defaulted, "conductivity of the oil, across which both surfaces exchange heat"),

@@ -28,7 +28,7 @@ mod wear;
 mod wrong;
 
 pub use error::{SceneError, drives_a_terminal};
-pub use heat::{BodyHeat, Heat};
+pub use heat::{BodyHeat, Heat, Warming};
 pub use knob::{Knob, KnobLine, RampRate, Reach, Steps};
 pub use life::{BodyChoice, CycleBasis, DamageMaps, Life, LifeModel, Spread};
 pub use load::Override;

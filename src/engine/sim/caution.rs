@@ -523,11 +523,7 @@ fn elastic_only(grounds: &Grounds) -> String {
     } else {
         "no wear, "
     };
-    let heat = if grounds.beside.heats {
-        "film and friction isothermal"
-    } else {
-        "isothermal"
-    };
+    let heat = grounds.beside.warming.words();
     format!("{wear}{heat}, {elastic}{initiation}")
 }
 

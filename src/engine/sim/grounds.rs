@@ -2,7 +2,7 @@
 
 use crate::physics::strength::Strength;
 use crate::plan::Resolution;
-use crate::scene::{Doubt, StressMeasure};
+use crate::scene::{Doubt, StressMeasure, Warming};
 
 /// Life of the smooth contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -17,8 +17,8 @@ pub enum ReferenceLife {
 /// What a scene may ask for beside contact, film and stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Beside {
-    /// Whether surface temperatures are computed.
-    pub heats: bool,
+    /// What of the heat is followed.
+    pub warming: Warming,
     /// Whether a surface wears.
     pub wears: bool,
 }

@@ -2,16 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::sim_plan::SimPlan;
+use super::scaling::Scaling;
 use crate::math::grid::Grid;
 use crate::saved::Saved;
 use crate::scene::Scene;
+use crate::solve::traction::TractionLaw;
 
 /// There is none.
 pub(super) enum HeatStage {}
 
 /// There is none.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) enum Warmth {}
 
 impl Saved for Warmth {
@@ -27,21 +28,28 @@ impl Saved for Warmth {
 /// See `heat_stage.rs`.
 pub(super) struct Warmed {
     pub(super) greatest_k: f64,
+    pub(super) film_k: f64,
     pub(super) mean_k: f64,
     pub(super) share_1: f64,
 }
 
 /// See `heat_stage.rs`.
 #[expect(dead_code, reason = "nobody reads it here")]
-pub(super) struct Heating<'a> {
+pub(super) struct SolvedStep<'a> {
     pub(super) grid: &'a Grid,
+    pub(super) scaling: &'a Scaling,
+    pub(super) law: &'a TractionLaw,
     pub(super) pressure: &'a [f64],
     pub(super) film: &'a [f64],
-    pub(super) traction: &'a [f64],
+    pub(super) sliding_m_s: f64,
+}
+
+/// See `heat_stage.rs`.
+#[derive(Clone, Copy)]
+#[expect(dead_code, reason = "nobody reads it here")]
+pub(super) struct Times {
     pub(super) dt_s: f64,
     pub(super) speeds_m_s: [f64; 2],
-    pub(super) ellipse: (f64, f64),
-    pub(super) steady: bool,
 }
 
 impl HeatStage {
@@ -53,13 +61,48 @@ impl HeatStage {
         match *self {}
     }
 
-    pub(super) fn advance(&mut self, _: &SimPlan, _: &mut Warmth, _: &Heating) {
+    pub(super) fn feeds_back(&self) -> bool {
+        match *self {}
+    }
+
+    pub(super) fn thinner(&self) -> Option<(&[f64], f64)> {
+        match *self {}
+    }
+
+    pub(super) fn shift(&self) -> &[f64] {
+        match *self {}
+    }
+
+    pub(super) fn begin(&mut self, _: &mut Warmth, _: Times) {
+        match *self {}
+    }
+
+    pub(super) fn find(&mut self, _: &SolvedStep) {
+        match *self {}
+    }
+
+    pub(super) fn commit(&mut self, _: &mut Warmth) {
+        match *self {}
+    }
+
+    pub(super) fn soak(&mut self, _: &mut Warmth, _: Times, _: &SolvedStep) {
+        match *self {}
+    }
+
+    pub(super) fn step(&mut self, _: &mut Warmth, _: Times, _: &SolvedStep) {
+        match *self {}
+    }
+
+    pub(super) fn count(&self, _: &mut Warmth, _: &Grid, _: (f64, f64)) {
         match *self {}
     }
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as in heat_stage.rs")]
 impl Warmth {
+    pub(super) fn shift(&self) -> &[f64] {
+        match *self {}
+    }
+
     pub(super) fn forget(&mut self) {
         match *self {}
     }

@@ -192,6 +192,7 @@ impl Scaling {
     }
 
     /// Heat of a pressure flow of H³ g |∇P|² = 1, h³ g |∇p|²/(12 η0), W/m²; dry: 0.
+    #[cfg(not(target_arch = "wasm32"))]
     pub(super) fn flow_heat_w_m2(&self) -> f64 {
         if self.lambda_s_m > 0.0 {
             self.film_m * self.p_hertz_pa / (self.a_m * self.lambda_s_m)

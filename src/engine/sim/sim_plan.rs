@@ -271,7 +271,7 @@ fn grounds_of(scene: &Scene, decided: &Plan) -> Grounds {
             _ => strength::by_young(body.young_pa),
         }),
         beside: Beside {
-            heats: scene.heat.is_some(),
+            warming: scene.warming(),
             wears: scene.wear.is_some(),
         },
         hardness_pa: scene.hardness_pa(),

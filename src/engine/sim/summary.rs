@@ -240,14 +240,17 @@ pub struct Summary {
     /// Greatest temperature of a surface, K.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_temperature_max_k: Option<f64>,
+    /// Greatest temperature of the oil, in the middle of the film, K; `None`: dry.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub film_temperature_max_k: Option<f64>,
     /// Part of the heat that enters body 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heat_share_1: Option<f64>,
     /// Flash temperature after Blok with the friction found, K.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flash_temperature_blok_k: Option<f64>,
-    /// Film with the inlet's heating over the isothermal one after Wilson and Sheu, which the film here has not; `None`: dry, or
-    /// nobody says how the viscosity falls.
+    /// Film with the inlet's heating over the isothermal one after Wilson and Sheu, to compare with; `None`: dry, or nobody says
+    /// how the viscosity falls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inlet_heating_factor: Option<f64>,
     /// Loading cycles that the surfaces have behind them; 1, that of the passages, where no ageing is asked for; `None`: nothing

@@ -175,7 +175,7 @@ impl Fluidity {
         let along = self.along.blocks(block).zip(states);
         match (directed.filter(|_| slides), &mut self.across) {
             (None, _) => {
-                along.for_each(|(along, (p, h, warm))| one_values(medium, p, h, warm, along))
+                along.for_each(|(along, (p, h, warm))| one_values(medium, p, h, warm, along));
             }
             (Some((limit, _)), Some(across)) if two => {
                 let directions = along

@@ -360,8 +360,8 @@ impl Heat {
         self.plane.back(&self.scratch, &mut self.fields[2]);
         let goal = RESIDUAL * dot(made, made).sqrt() * diagonal;
         self.fields[0].clone_from(&self.exchange);
-        for n in 0..self.fields[2].len() {
-            self.fields[2][n] -= resistance[n] * self.fields[0][n];
+        for (n, across) in resistance.iter().enumerate() {
+            self.fields[2][n] -= across * self.fields[0][n];
         }
         let (low, high) = self.fields.split_at_mut(3);
         high[0].clone_from(&low[2]);
@@ -381,8 +381,8 @@ impl Heat {
             }
             self.apply(tables, resistance, diagonal, 4, 5);
             alpha = rho / dot(&self.fields[3], &self.fields[5]);
-            for n in 0..self.fields[2].len() {
-                self.fields[0][n] += alpha * self.fields[4][n] / (resistance[n] + diagonal);
+            for (n, across) in resistance.iter().enumerate() {
+                self.fields[0][n] += alpha * self.fields[4][n] / (across + diagonal);
                 self.fields[2][n] -= alpha * self.fields[5][n];
             }
             if dot(&self.fields[2], &self.fields[2]).sqrt() <= goal {
@@ -391,8 +391,8 @@ impl Heat {
             self.apply(tables, resistance, diagonal, 2, 7);
             omega = dot(&self.fields[7], &self.fields[2])
                 / dot(&self.fields[7], &self.fields[7]).max(f64::MIN_POSITIVE);
-            for n in 0..self.fields[2].len() {
-                self.fields[0][n] += omega * self.fields[2][n] / (resistance[n] + diagonal);
+            for (n, across) in resistance.iter().enumerate() {
+                self.fields[0][n] += omega * self.fields[2][n] / (across + diagonal);
                 self.fields[2][n] -= omega * self.fields[7][n];
             }
         }
@@ -408,12 +408,12 @@ impl Heat {
         x: usize,
         to: usize,
     ) {
-        for n in 0..self.fields[6].len() {
-            self.fields[6][n] = self.fields[x][n] / (resistance[n] + diagonal);
+        for (n, across) in resistance.iter().enumerate() {
+            self.fields[6][n] = self.fields[x][n] / (across + diagonal);
         }
         self.both(tables, 6, to);
-        for n in 0..self.fields[6].len() {
-            self.fields[to][n] += resistance[n] * self.fields[6][n];
+        for (n, across) in resistance.iter().enumerate() {
+            self.fields[to][n] += across * self.fields[6][n];
         }
     }
 }

@@ -29,7 +29,7 @@ use thiserror::Error;
 use super::ladder::fewest_wave_nodes;
 use super::session::RunError;
 use asperity_engine::plan::{Plan, PlanError};
-use asperity_engine::scene::{Order, Scene};
+use asperity_engine::scene::{Order, Scene, Warming};
 use asperity_engine::sim::Summary;
 
 /// Fewest nodes per side that a run on half the nodes makes sense on.
@@ -89,7 +89,12 @@ pub(super) fn coarser(scene: &Scene, plan: &Plan) -> Result<Scene, NoEstimate> {
     // Two orders would be no sequence.
     coarse.numerics.order = plan.order.into();
     coarse.record = None;
-    Ok(coarse.mechanical())
+    // Surfaces are new there; warm oil is warm on every mesh.
+    (coarse.wear, coarse.age) = (None, None);
+    if coarse.warming() != Warming::SurfacesAndOil {
+        coarse.heat = None;
+    }
+    Ok(coarse)
 }
 
 /// Of the extremes, for an observed order of 1.3: 3/(2^1.3 − 1).

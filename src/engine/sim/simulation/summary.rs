@@ -64,6 +64,8 @@ fn with_heat(sim: View, summary: Summary) -> Summary {
         flash_temperature_max_k: Some(warmed.greatest_k),
         flash_temperature_mean_k: Some(warmed.mean_k),
         contact_temperature_max_k: Some(heat.bulk_k + warmed.greatest_k),
+        film_temperature_max_k: Some(heat.bulk_k + warmed.film_k)
+            .filter(|_| scene.lubricant.is_some()),
         heat_share_1: Some(warmed.share_1),
         flash_temperature_blok_k: Some(blok).filter(|blok| blok.is_finite()),
         inlet_heating_factor: heat_stage::inlet(scene),
