@@ -19,7 +19,7 @@ use super::present::conditions;
 use super::watching::{publish, see_again};
 use crate::plan::{Plan, TimeDependence};
 use crate::saved::Saved as _;
-use crate::scene::{Scene, Surface};
+use crate::scene::{Scene, Surface, Warming};
 use crate::sim::drive::Drive;
 use crate::sim::measure::{Fields, Measured, RowSums, measure};
 use crate::sim::motion::Travel;
@@ -158,6 +158,7 @@ pub fn head_start(rungs: &[(&Scene, &Plan)]) -> [f64; 2] {
     };
     let launch = |plan: &SimPlan| {
         let develops = plan.scene.motion.slide_roll != 0.0
+            || plan.scene.warming() == Warming::SurfacesAndOil
             || (plan.scene.surfaces().iter()).any(|surface| !matches!(surface, Surface::Smooth {}));
         cold_distances(plan, &drive_of(&plan.scene), develops, plan.usual_dt())
     };

@@ -1,6 +1,7 @@
 //! From Hertz to the developed rough contact.
 
 use super::watching::measure_state;
+use crate::sim::heat_stage::HeatStage;
 use crate::sim::measure::Measured;
 use crate::sim::sim_plan::{DEVELOP, SimPlan};
 use crate::sim::state::Phase;
@@ -76,9 +77,10 @@ pub(super) fn refine_or_develop(plan: &SimPlan, state: &mut State, work: &mut Wo
     state.phase = Phase::Develop { left };
 }
 
-/// Whether sliding or roughness come up after the smooth contact.
+/// Whether sliding, roughness or warm oil come up after the smooth contact.
 pub(super) fn develops(state: &State, work: &Work) -> bool {
+    let warms = work.heat.as_ref().is_some_and(HeatStage::feeds_back);
     let is_rough = |body| work.roughness.is_rough(body);
     let sliding = state.targets.get(Knob::SlideRoll).target;
-    is_rough(0) || is_rough(1) || sliding != 0.0
+    warms || is_rough(0) || is_rough(1) || sliding != 0.0
 }
