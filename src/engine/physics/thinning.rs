@@ -94,6 +94,12 @@ impl Thinning {
         self.scale * (self.left(rise_k) - 1.0) - self.per_k * rise_k
     }
 
+    /// −dc/dθ at a rise, 1/K.
+    #[inline(always)]
+    pub fn falls_at_rest(&self, rise_k: f64) -> f64 {
+        self.per_k(rise_k, 0.0)
+    }
+
     /// 1/scale: 0 where the pressure does not matter.
     pub fn per_scale(&self) -> f64 {
         self.per_scale

@@ -2,7 +2,7 @@
 //! and for deciding on a progress bar; nothing in the results depends on them.
 
 use super::display::duration;
-use crate::scene::ContactKind;
+use crate::scene::{ContactKind, Warming};
 
 /// Memory and time of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,10 +53,10 @@ const FIELD_BYTES_PER_NODE: f64 = 4.5;
 const SHEET_BYTES: f64 = 5e4;
 
 /// Waves of a padded domain over nodes, of a point and of a line; bytes that both bodies' heat takes of each; seconds of a step of
-/// each (at 129²: 2 to 3 s of 384 steps were measured).
+/// each, of surfaces alone and with warm oil (at 129², mirrored: 1.1 and 3.6 ms a step were measured).
 const HEAT_WAVES: [f64; 2] = [2.0, 4.0];
-const HEAT_BYTES: f64 = 2.0 * 22.0 * 16.0;
-const HEAT_WAVE_S: f64 = 2e-7;
+const HEAT_BYTES: f64 = 2.0 * 41.0 * 16.0;
+const HEAT_WAVE_S: [f64; 2] = [7e-8, 2.2e-7];
 
 /// Bytes of the fields of one recorded frame.
 pub(super) fn frame_bytes(nodes: usize, rows: usize) -> f64 {
@@ -87,15 +87,25 @@ impl Cost {
         }
     }
 
-    /// With the heat of both bodies in each of so many steps.
-    pub(super) fn with_heat(mut self, kind: ContactKind, nodes: usize, steps: u64) -> Self {
+    /// With the heat of both bodies in each of so many steps, on `rows` of all rows.
+    pub(super) fn with_heat(
+        mut self,
+        warming: Warming,
+        (kind, nodes, rows): (ContactKind, usize, f64),
+        steps: u64,
+    ) -> Self {
+        let wave_s = match warming {
+            Warming::None => return self,
+            Warming::Surfaces => HEAT_WAVE_S[0],
+            Warming::SurfacesAndOil => HEAT_WAVE_S[1],
+        };
         let nodes = nodes as f64;
         let waves = match kind {
-            ContactKind::Point => HEAT_WAVES[0] * nodes * nodes,
+            ContactKind::Point => HEAT_WAVES[0] * nodes * nodes * rows,
             ContactKind::Line => HEAT_WAVES[1] * nodes,
         };
         self.memory_bytes += (HEAT_BYTES * waves) as u64;
-        self.time_s += HEAT_WAVE_S * waves * steps as f64;
+        self.time_s += wave_s * waves * steps as f64;
         self
     }
 

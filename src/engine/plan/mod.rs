@@ -407,13 +407,14 @@ impl Plan {
         let domain = &self.domain;
         let step_a = self.dt_s * self.speeds_m_s.iter().sum::<f64>().abs() / 2.0 / self.hertz.a_m;
         let crossing = (domain.x_max_a - domain.x_min_a) / step_a;
+        let rows = match self.symmetry {
+            Symmetry::MirrorY => 0.5,
+            Symmetry::General | Symmetry::Line => 1.0,
+        };
         let cost = Cost::new(cost::CostInput {
             kind: self.kind,
             nodes: self.domain.nodes,
-            rows: match self.symmetry {
-                Symmetry::MirrorY => 0.5,
-                Symmetry::General | Symmetry::Line => 1.0,
-            },
+            rows,
             depths: self.depths(),
             steps: self.steps,
             start_up_steps: (START_UP_CROSSINGS * crossing
@@ -421,11 +422,7 @@ impl Plan {
                 as u64,
             volumes,
         });
-        match self.warming {
-            Warming::None => cost,
-            Warming::Surfaces | Warming::SurfacesAndOil => {
-                cost.with_heat(self.kind, self.domain.nodes, self.steps)
-            }
-        }
+        let size = (self.kind, self.domain.nodes, rows);
+        cost.with_heat(self.warming, size, self.steps)
     }
 }

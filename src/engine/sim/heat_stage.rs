@@ -12,13 +12,14 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::scaling::Scaling;
-use crate::math::elementary::exp;
+use crate::math::elementary::{exp, ln};
 use crate::math::grid::Grid;
 use crate::physics::heat_estimate::{blok_k, inlet_factor};
 use crate::physics::thinning::{Sheared, Thinning, thinned_row};
 use crate::saved::saved;
 use crate::scene::Scene;
 use crate::solve::heat::{Heat, HeatState, Thermal};
+use crate::solve::reynolds::Reynolds;
 use crate::solve::traction::{FilmShear, TractionLaw};
 
 /// m² K/W between surfaces that nothing joins.
@@ -49,6 +50,8 @@ pub(super) struct HeatStage {
     /// Of each row, what its nodes are sheared by.
     nodes: Vec<[Vec<f64>; 5]>,
     now: Film,
+    /// c and Q_p as the step has been solved with.
+    solved: [Vec<f64>; 2],
 }
 
 /// The oil at every node.
@@ -56,6 +59,8 @@ pub(super) struct HeatStage {
 struct Film {
     /// Q, W/m².
     made: Vec<f64>,
+    /// Q_p, the part of it that the pressure's flow makes, W/m².
+    flowing: Vec<f64>,
     /// Mean rise of both walls, K.
     walls_k: Vec<f64>,
     /// Rise in the middle of the film over the walls, K.
@@ -67,7 +72,7 @@ struct Film {
 }
 
 saved! {
-    Film { parts: made, walls_k, middle_k, shift, thinner; }
+    Film { parts: made, flowing, walls_k, middle_k, shift, thinner; }
 }
 
 /// What is remembered.
@@ -103,7 +108,10 @@ pub(super) struct SolvedStep<'a> {
     /// P and H.
     pub(super) pressure: &'a [f64],
     pub(super) film: &'a [f64],
-    /// |U2 − U1|.
+    /// What has flown; `None`: as in the last step.
+    pub(super) flow: Option<&'a Reynolds>,
+    /// U and |U2 − U1|.
+    pub(super) entrainment_m_s: f64,
     pub(super) sliding_m_s: f64,
 }
 
@@ -137,6 +145,7 @@ impl HeatStage {
             resistance: vec![0.0; grid.len()],
             oil: (scene.lubricant.as_ref()).map(|_| asked.thermal_conductivity_w_mk),
             now: Film::cold(grid.len()),
+            solved: [vec![0.0; grid.len()], vec![0.0; grid.len()]],
             traction: vec![0.0; grid.len()],
             changes: vec![[0.0; 2]; grid.ny],
             nodes: vec![std::array::from_fn(|_| vec![0.0; grid.nx]); grid.ny],
@@ -179,6 +188,7 @@ impl HeatStage {
     /// Heat and temperatures of the step that has begun, as it has been solved last.
     pub(super) fn find(&mut self, step: &SolvedStep) {
         self.resist(step);
+        self.flow(step);
         for round in 0..MOST_ROUNDS {
             self.shear(step);
             let (change, all) = (self.changes.iter()).fold((0.0, 0.0), |(change, all), row| {
@@ -216,33 +226,61 @@ impl HeatStage {
         }
     }
 
+    /// c and Q_p as the step has been solved: Q_p = h³ g |∇p|²/(12 η0).
+    fn flow(&mut self, step: &SolvedStep) {
+        let [thinner, flowing] = &mut self.solved;
+        thinner.copy_from_slice(&self.now.thinner);
+        let Some(flow) = step.flow else {
+            flowing.copy_from_slice(&self.now.flowing);
+            return;
+        };
+        flow.power(step.grid, step.pressure, flowing);
+        let unit = step.scaling.flow_heat_w_m2(step.entrainment_m_s);
+        for flowing in flowing.iter_mut() {
+            *flowing *= unit;
+        }
+    }
+
     /// Stress, heat and thinning of every node from the temperature of its walls.
     fn shear(&mut self, step: &SolvedStep) {
         let nx = step.grid.nx;
         let node = NodeLaw::new(self, step);
         let Film {
             made,
+            flowing,
             walls_k,
             middle_k,
             shift,
             thinner,
         } = &mut self.now;
-        (made.par_chunks_mut(nx).zip(middle_k.par_chunks_mut(nx)))
+        let [solved, flowed] = &self.solved;
+        (made.par_chunks_mut(nx).zip(flowing.par_chunks_mut(nx)))
             .zip(shift.par_chunks_mut(nx).zip(thinner.par_chunks_mut(nx)))
-            .zip(self.traction.par_chunks_mut(nx).zip(&mut self.changes))
-            .zip(walls_k.par_chunks(nx).zip(&mut self.nodes))
+            .zip(
+                middle_k
+                    .par_chunks_mut(nx)
+                    .zip(self.traction.par_chunks_mut(nx)),
+            )
+            .zip(
+                walls_k
+                    .par_chunks(nx)
+                    .zip(solved.par_chunks(nx).zip(flowed.par_chunks(nx))),
+            )
+            .zip(self.nodes.par_iter_mut().zip(&mut self.changes))
             .enumerate()
             .for_each(
-                |(j, ((((made, middle), (shift, thinner)), (q, change)), (walls, nodes)))| {
+                |(j, ((((heat, oil), (middle, q)), (walls, solved)), (nodes, change)))| {
                     let row = Row {
                         j,
                         walls,
-                        made,
+                        solved,
+                        made: heat.0,
+                        flowing: heat.1,
                         middle,
                         q,
                         nodes,
-                        shift,
-                        thinner,
+                        shift: oil.0,
+                        thinner: oil.1,
                     };
                     *change = node.row(step, row);
                 },
@@ -317,6 +355,7 @@ impl Film {
         let field = vec![0.0; n];
         Self {
             made: field.clone(),
+            flowing: field.clone(),
             walls_k: field.clone(),
             middle_k: field.clone(),
             shift: field.clone(),
@@ -326,6 +365,7 @@ impl Film {
 
     fn copy(&mut self, from: &Self) {
         self.made.copy_from_slice(&from.made);
+        self.flowing.copy_from_slice(&from.flowing);
         self.walls_k.copy_from_slice(&from.walls_k);
         self.middle_k.copy_from_slice(&from.middle_k);
         self.shift.copy_from_slice(&from.shift);
@@ -337,7 +377,10 @@ impl Film {
 struct Row<'a> {
     j: usize,
     walls: &'a [f64],
+    /// c and Q_p as the step has been solved with.
+    solved: (&'a [f64], &'a [f64]),
     made: &'a mut [f64],
+    flowing: &'a mut [f64],
     middle: &'a mut [f64],
     q: &'a mut [f64],
     nodes: &'a mut [Vec<f64>; 5],
@@ -354,8 +397,6 @@ struct NodeLaw {
     resistance: f64,
     /// K a W/m² by which walls warm with the heat of a node.
     walls_grow: f64,
-    /// Q_p of H³ g |∇P|² = 1, W/m².
-    flow: f64,
 }
 
 impl NodeLaw {
@@ -366,7 +407,6 @@ impl NodeLaw {
             unit: scaling.pa_from_p(1.0) * step.sliding_m_s,
             resistance: stage.oil.map_or(0.0, |k| scaling.m_from_h(1.0) / k),
             walls_grow: 0.25 * stage.heat.own_of_both(),
-            flow: scaling.flow_heat_w_m2(),
         }
     }
 
@@ -384,36 +424,40 @@ impl NodeLaw {
         step.law.traction_row(dx, p, h, row.shift, row.q);
         let Row {
             walls,
+            solved,
             made,
+            flowing,
             middle,
             q,
             nodes,
-            shift,
             thinner,
             ..
         } = row;
-        let [flowing, resistance, ..] = nodes;
-        match &step.law.film {
-            Some(film) => flow_heat_row(step.law, film, (self.flow, dx), [p, h, q, shift], flowing),
-            None => flowing.fill(0.0),
+        let [sliding, resistance, ..] = nodes;
+        for i in 0..nx {
+            sliding[i] = q[i].abs() * self.unit;
+            resistance[i] = self.resistance * h[i].max(0.0);
+            flowing[i] = solved.1[i];
         }
-        for (resistance, h) in resistance.iter_mut().zip(h) {
-            *resistance = self.resistance * h.max(0.0);
+        if let Some(thinning) = &self.thinning {
+            thinner_row(
+                thinning,
+                [walls, sliding, resistance],
+                solved,
+                flowing,
+                thinner,
+            );
         }
         let mut sums = [0.0; 2];
         for i in 0..nx {
-            let sliding = q[i].abs() * self.unit;
             if self.thinning.is_none() || film.is_none() {
-                middle[i] = sliding * resistance[i] / 8.0;
+                middle[i] = sliding[i] * resistance[i] / 8.0;
             }
             middle[i] += MIDDLE_OF_FLOW * flowing[i] * resistance[i];
-            let now = sliding + flowing[i];
+            let now = sliding[i] + flowing[i];
             sums[0] += (now - made[i]).abs();
             sums[1] += now;
             made[i] = now;
-        }
-        if let Some(thinning) = &self.thinning {
-            thinner_row(thinning, [walls, made, flowing, resistance], thinner);
         }
         sums
     }
@@ -473,50 +517,35 @@ fn newtonian_row(
 }
 
 dispatched! {
-/// Q_p of every node of a row: `unit` H³ g (∂P/∂X)².
-fn flow_heat_row(
-    law: &TractionLaw,
-    film: &FilmShear,
-    (unit, dx): (f64, f64),
-    [p, h, q, shift]: [&[f64]; 4],
-    flowing: &mut [f64],
-) {
-    let n = p.len();
-    let (h, q, shift, flowing) = (&h[..n], &q[..n], &shift[..n], &mut flowing[..n]);
-    let per_tau0 = film.eyring.map_or(0.0, |tau0| 1.0 / tau0);
-    let viscosity = law.viscosity;
-    for i in 0..n {
-        flowing[i] = viscosity.ln_eta(p[i]).0 + shift[i];
-    }
-    for i in 0..n {
-        // Sheared oil flows the more easily by cosh σ (`physics/fluid.rs`).
-        let sigma = q[i].abs() * per_tau0;
-        flowing[i] = 0.5 * (exp(sigma - flowing[i]) + exp(-sigma - flowing[i]));
-    }
-    for i in 1..n - 1 {
-        let slope = 0.5 * (p[i + 1] - p[i - 1]) / dx;
-        let heat = unit * h[i] * h[i] * h[i] * slope * slope * flowing[i];
-        flowing[i] = if p[i] > 0.0 && h[i] > law.contact_film { heat } else { 0.0 };
-    }
-    flowing[0] = 0.0;
-    flowing[n - 1] = 0.0;
-}
-}
-
-dispatched! {
-/// c of the flow of every node of a row, from the rise of its walls, all heat, that of the flow, and h/k_f.
+/// c of the flow and Q_p of every node of a row, from the rise of its walls, the heat of the sliding and h/k_f.
+///
+/// What flows stays what it was when the oil was as thin as it has been solved with: thinner oil makes less heat,
+/// Q_p ~ e^(c − c_solved), and c = c(θ_w + (Q/20 + 3 Q_p/84) h/k_f). Held with the slope of the pressure in place of the
+/// flow, the heat would swing where much of it is made.
 fn thinner_row(
     thinning: &Thinning,
-    [walls, made, flowing, resistance]: [&[f64]; 4],
+    [walls, sliding, resistance]: [&[f64]; 3],
+    (solved, flowed): (&[f64], &[f64]),
+    flowing: &mut [f64],
     thinner: &mut [f64],
 ) {
     let n = thinner.len();
-    let (walls, made, flowing) = (&walls[..n], &made[..n], &flowing[..n]);
-    let resistance = &resistance[..n];
+    let (walls, sliding, resistance) = (&walls[..n], &sliding[..n], &resistance[..n]);
+    let (solved, flowed, flowing) = (&solved[..n], &flowed[..n], &mut flowing[..n]);
     for i in 0..n {
-        let sliding = made[i] - flowing[i];
-        let over = FLOW_OF_SLIDING * sliding + FLOW_OF_FLOW * flowing[i];
-        thinner[i] = thinning.at_rest(walls[i] + over * resistance[i]);
+        let rest = walls[i] + FLOW_OF_SLIDING * sliding[i] * resistance[i];
+        let warms = FLOW_OF_FLOW * flowed[i] * resistance[i];
+        let base = thinning.at_rest(rest);
+        // Of exponential oil exactly base − W(K), Lambert's; the guess is good to a few per cent for any K.
+        let k = ln(1.0 + thinning.falls_at_rest(rest) * warms * exp(base - solved[i]));
+        let mut c = base - k * (1.0 - ln(1.0 + k) / (2.0 + k));
+        for _ in 0..2 {
+            let of_flow = warms * exp(c - solved[i]);
+            let residual = c - thinning.at_rest(rest + of_flow);
+            c -= residual / (1.0 + thinning.falls_at_rest(rest + of_flow) * of_flow);
+        }
+        thinner[i] = c;
+        flowing[i] = flowed[i] * exp(c - solved[i]);
     }
 }
 }

@@ -6,6 +6,7 @@ use super::scaling::Scaling;
 use crate::math::grid::Grid;
 use crate::saved::Saved;
 use crate::scene::Scene;
+use crate::solve::reynolds::Reynolds;
 use crate::solve::traction::TractionLaw;
 
 /// There is none.
@@ -41,6 +42,8 @@ pub(super) struct SolvedStep<'a> {
     pub(super) law: &'a TractionLaw,
     pub(super) pressure: &'a [f64],
     pub(super) film: &'a [f64],
+    pub(super) flow: Option<&'a Reynolds>,
+    pub(super) entrainment_m_s: f64,
     pub(super) sliding_m_s: f64,
 }
 

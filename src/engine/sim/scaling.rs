@@ -191,14 +191,10 @@ impl Scaling {
         x * self.a_m
     }
 
-    /// Heat of a pressure flow of H³ g |∇P|² = 1, h³ g |∇p|²/(12 η0), W/m²; dry: 0.
+    /// Heat of a pressure flow of power τ |∇P|² = 1 (`reynolds.rs`) at entrainment speed `u_m_s`, W/m².
     #[cfg(not(target_arch = "wasm32"))]
-    pub(super) fn flow_heat_w_m2(&self) -> f64 {
-        if self.lambda_s_m > 0.0 {
-            self.film_m * self.p_hertz_pa / (self.a_m * self.lambda_s_m)
-        } else {
-            0.0
-        }
+    pub(super) fn flow_heat_w_m2(&self, u_m_s: f64) -> f64 {
+        self.film_m * self.p_hertz_pa * u_m_s / self.a_m
     }
 
     /// κ_s of the deflection by traction, from the mismatch of the materials, 1/Pa.

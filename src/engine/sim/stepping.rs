@@ -33,7 +33,7 @@ const MOST_NEWTON: u32 = 1500;
 const HOPELESS: f64 = 0.05;
 
 /// Most times that a step is solved again because its oil has warmed; beyond it shorter steps are tried.
-const MOST_WARMED: usize = 8;
+const MOST_WARMED: usize = 30;
 
 /// What a step took and reached.
 #[derive(Debug, Clone, Copy, Default)]
@@ -282,6 +282,7 @@ impl Mover<'_> {
     /// Heat and temperatures of the step as it has been solved.
     fn find_heat(&mut self) {
         let law = self.plan.law_now(self.drive);
+        let flows = self.plan.flow_now(self.drive) != Flow::Dry;
         let (pressure, film) = self.solver.tried();
         if let Some(Heated { stage, .. }) = &mut self.heated {
             stage.find(&SolvedStep {
@@ -290,6 +291,8 @@ impl Mover<'_> {
                 law: &law,
                 pressure,
                 film,
+                flow: flows.then_some(&self.solver.newton.reynolds),
+                entrainment_m_s: self.drive.get(Knob::EntrainmentMS).now,
                 sliding_m_s: sliding_m_s(self.drive),
             });
         }

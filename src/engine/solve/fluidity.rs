@@ -201,11 +201,6 @@ impl Fluidity {
         }
     }
 
-    /// g along the sliding of all nodes.
-    pub(super) fn along(&self) -> &[f64] {
-        &self.along.g
-    }
-
     /// What faces need of the nodes in `range`; `q` is ρ̄H³ of all nodes.
     pub(super) fn nodes<'a>(
         &'a self,

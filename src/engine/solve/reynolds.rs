@@ -117,9 +117,32 @@ impl Reynolds {
         self.fluidity.warm.set(thinner);
     }
 
-    /// g along the sliding at the last call of [`Reynolds::properties`].
-    pub fn fluidities(&self) -> &[f64] {
-        self.fluidity.along()
+    /// Power of the pressure's flow at every node, τ |∇P|², from the conductances of the last residual: half of what each of its
+    /// faces has.
+    pub fn power(&self, grid: &Grid, p: &[f64], power: &mut [f64]) {
+        let nx = grid.nx;
+        let (wx, wy) = grid.flow_weights();
+        let interior = grid.interior_rows();
+        let (east, north) = (&self.east, &self.north);
+        let rows = power.par_chunks_mut(nx).enumerate().with_min_len(ROWS);
+        rows.for_each(|(j, power)| {
+            power.fill(0.0);
+            if !interior.contains(&j) {
+                return;
+            }
+            let row = |j: usize| &p[j * nx..(j + 1) * nx];
+            let (here, above, below) = (row(j), row(grid.row_above(j)), row(grid.row_below(j)));
+            let faces = |j: usize| j * nx..(j + 1) * nx;
+            let (east, up) = (&east[faces(j)], &north[faces(j)]);
+            let down = &north[faces(face_below(grid, j))];
+            for i in 1..nx - 1 {
+                let along = east[i] * (here[i + 1] - here[i]).powi(2)
+                    + east[i - 1] * (here[i] - here[i - 1]).powi(2);
+                let across =
+                    up[i] * (above[i] - here[i]).powi(2) + down[i] * (here[i] - below[i]).powi(2);
+                power[i] = 0.5 * (wx * along + wy * across);
+            }
+        });
     }
 
     /// Evaluates the fluid laws at every node.

@@ -66,6 +66,8 @@ fn heat(plan: &SimPlan, state: &mut State, work: &mut Work, attempted: &Attempte
         law: &law,
         pressure: &state.contact.pressure,
         film: &state.contact.film,
+        flow: None,
+        entrainment_m_s: state.drive.get(Knob::EntrainmentMS).now,
         sliding_m_s: sliding_m_s(&state.drive),
     };
     let times = times(plan, &state.drive, grid.dx, attempted.nodes);
