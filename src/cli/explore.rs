@@ -131,7 +131,7 @@ fn start(
     let session = engine(Request {
         name: prepared.name.clone(),
         // Knobs are turned on surfaces that stay as they are.
-        scene: Arc::new((*prepared.scene).clone().mechanical()),
+        scene: Arc::new((*prepared.scene).clone().with_new_surfaces()),
         plan: prepared.plan.clone(),
         threads,
         watchers: outputs.take_watchers(),

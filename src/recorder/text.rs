@@ -17,8 +17,7 @@ use asperity_engine::sim::{Caution, CautionCode, Frame, LifeEstimate};
 use asperity_picture::Look;
 
 /// What no reader of the numbers should forget.
-pub(crate) const CAUTION: &str =
-    "relative life is an estimate under assumptions: isothermal, elastic, no wear, initiation only";
+pub(crate) const CAUTION: &str = "relative life is an estimate under assumptions: those of its cautions, elastic below the surface, initiation only";
 
 /// What is known before the first frame.
 pub(crate) fn log_context(stream: &Stream, context: &RunContext) {

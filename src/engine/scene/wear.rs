@@ -45,7 +45,14 @@ impl Scene {
     /// The mechanics of one passage of new surfaces: without wear, ageing and heat.
     #[must_use]
     pub fn mechanical(mut self) -> Self {
-        (self.wear, self.age, self.heat) = (None, None, None);
+        self.heat = None;
+        self.with_new_surfaces()
+    }
+
+    /// One passage of new surfaces: without wear and ageing.
+    #[must_use]
+    pub fn with_new_surfaces(mut self) -> Self {
+        (self.wear, self.age) = (None, None);
         self
     }
 

@@ -90,11 +90,10 @@ pub(super) fn coarser(scene: &Scene, plan: &Plan) -> Result<Scene, NoEstimate> {
     coarse.numerics.order = plan.order.into();
     coarse.record = None;
     // Surfaces are new there; warm oil is warm on every mesh.
-    (coarse.wear, coarse.age) = (None, None);
-    if coarse.warming() != Warming::SurfacesAndOil {
-        coarse.heat = None;
-    }
-    Ok(coarse)
+    Ok(match coarse.warming() {
+        Warming::SurfacesAndOil => coarse.with_new_surfaces(),
+        Warming::None | Warming::Surfaces => coarse.mechanical(),
+    })
 }
 
 /// Of the extremes, for an observed order of 1.3: 3/(2^1.3 − 1).
