@@ -265,6 +265,7 @@ fn add_wear(lines: &mut Lines, s: &Summary) {
         "wear",
         format!("{times} at most {one} off body 1 and {two} off body 2"),
     );
+    add_pits(lines, s);
     let n = s.ages.len();
     let every = n.div_ceil(SHOWN).max(1);
     for (k, age) in s.ages.iter().enumerate() {
@@ -274,7 +275,7 @@ fn add_wear(lines: &mut Lines, s: &Summary) {
         lines.add(
             if k == 0 { "ages" } else { "" },
             format!(
-                "{:>9} cycles: worn {} and {}, Rq {} and {}, p_max {}, on contacts {} %, friction {}{}",
+                "{:>9} cycles: worn {} and {}, Rq {} and {}, p_max {}, on contacts {} %, friction {}{}{}",
                 sig(age.cycles, 3),
                 depth(Some(age.wear_depth_1_m)),
                 depth(Some(age.wear_depth_2_m)),
@@ -284,6 +285,48 @@ fn add_wear(lines: &mut Lines, s: &Summary) {
                 sig(100.0 * age.contact_load_ratio, 2),
                 sig(age.friction_coefficient, 3),
                 known(age.life_relative, |life| format!(", life {}", sig(life, 3))),
+                pitted(age.pitted_area_1, age.pitted_area_2),
+            ),
+        );
+    }
+}
+
+/// Pitted parts of both surfaces.
+fn pitted(one: Option<f64>, two: Option<f64>) -> String {
+    match (one, two) {
+        (Some(one), Some(two)) => format!(
+            ", pits on {} and {} %",
+            sig(100.0 * one, 3),
+            sig(100.0 * two, 3)
+        ),
+        _ => String::new(),
+    }
+}
+
+/// Cycles to pits, with and without what wear does.
+fn add_pits(lines: &mut Lines, s: &Summary) {
+    let cycles = |cycles: Option<f64>| cycles.map_or("-".to_owned(), |n| sig(n, 3));
+    for (body, area, pits) in [
+        (1, s.pitted_area_1, s.pits_body_1),
+        (2, s.pitted_area_2, s.pits_body_2),
+    ] {
+        let (Some(area), Some(p)) = (area, pits) else {
+            continue;
+        };
+        lines.add(
+            if body == 1 { "pits" } else { "" },
+            format!(
+                "body {body}: on {} % of the line y = 0, greatest damage {} at {} depth; the first after {} cycles, on 1 % {}, \
+                 on 10 % {}; if it stayed new {}, {}, {}",
+                sig(100.0 * area, 3),
+                sig(p.damage_max, 3),
+                UM.show(p.depth_m, 3),
+                cycles(p.first_cycles),
+                cycles(p.one_percent_cycles),
+                cycles(p.ten_percent_cycles),
+                cycles(p.unworn_first_cycles),
+                cycles(p.unworn_one_percent_cycles),
+                cycles(p.unworn_ten_percent_cycles),
             ),
         );
     }

@@ -94,6 +94,73 @@ fn a_crest_is_halved_after_as_many_cycles_as_the_closed_form_says() {
     }
 }
 
+/// A smooth, frictionless contact at rest to itself fails where the calibration point says: its damage grows with the
+/// cycles, and reaches 1 where the relative life would be 1.
+#[test]
+fn a_smooth_contact_pits_when_its_calibration_point_says() {
+    for (p_cal, cycles) in [(1.5e9, 1e7), (1.2e9, 3e8)] {
+        let sets = [
+            "motion.slide_roll=0".to_owned(),
+            "grid.nodes=257".to_owned(),
+            "stress.depths=32".to_owned(),
+            format!("life.calibration_cycles={cycles}"),
+            format!("life.calibration_pressure_pa={p_cal}"),
+            "age.cycles=2e6".to_owned(),
+        ];
+        let found = run(&scene(DRY_LINE, &sets));
+        let theirs = found.life_cycles.unwrap() / found.life_relative.unwrap();
+        for pits in [found.pits_body_1.unwrap(), found.pits_body_2.unwrap()] {
+            let first = pits.unworn_first_cycles.unwrap();
+            println!(
+                "{cycles:e} cycles at {:.1} GPa: pits after {first:.5e}, the smooth contact lives {theirs:.5e}; damage {:.4}",
+                1e-9 * p_cal,
+                pits.damage_max
+            );
+            assert!((first / theirs - 1.0).abs() < 0.01);
+            assert!((pits.damage_max / (2e6 / theirs) - 1.0).abs() < 0.01);
+            assert_eq!(pits.first_cycles.is_some(), theirs < 2e6);
+        }
+        let area = if theirs < 2e6 { 1.0 } else { 0.0 };
+        assert_eq!([found.pitted_area_1, found.pitted_area_2], [Some(area); 2]);
+    }
+}
+
+/// Rolling on a crest that always meets the same place: it fails (σ_smooth/σ_max)^c times sooner than the smooth contact, with
+/// σ_max of the summary. The points that count cycles one by one have the same damage.
+#[test]
+fn a_crest_that_stays_pits_as_its_stress_says() {
+    let wave = [
+        "body_1.surface.kind=sinusoid",
+        "body_1.surface.amplitude_m=1e-7",
+        "body_1.surface.wavelength_x_m=5e-5",
+        "motion.slide_roll=0",
+        "grid.nodes=513",
+        "stress.depths=32",
+        "life.calibration_cycles=1e7",
+        "life.calibration_pressure_pa=1.5e9",
+        "time.passages=4",
+    ];
+    let stay = scene(DRY_LINE, &wave.map(str::to_owned));
+    let plain = run(&stay);
+    let aged = run(&scene(
+        DRY_LINE,
+        &[&wave.map(str::to_owned)[..], &["age.cycles=1e3".to_owned()]].concat(),
+    ));
+    let c = 31.0 / 3.0;
+    let smooth = aged.life_cycles.unwrap() / aged.life_relative.unwrap();
+    let sigma = plain.sigma_eff_max_pa.unwrap() / stay.hertz().p_max_pa;
+    // Von Mises in plane strain under a Hertz line.
+    let by_stress = smooth * (0.5575 / sigma).powf(c);
+    let pits = aged.pits_body_1.unwrap();
+    let first = pits.unworn_first_cycles.unwrap();
+    let by_points = smooth / plain.pit_body_1.unwrap().damage;
+    println!(
+        "first pit after {first:.4e}; by the greatest stress {by_stress:.4e}, by points that count {by_points:.4e}"
+    );
+    assert!((first / by_stress).ln().abs() < 0.02, "{first} {by_stress}");
+    assert!((first / by_points).ln().abs() < 0.1, "{first} {by_points}");
+}
+
 const AGED: [&str; 3] = [
     "wear.coefficient_1_per_pa=1e-18",
     "wear.coefficient_2_per_pa=2e-18",
@@ -135,7 +202,12 @@ fn ageing_converges_with_its_tolerance() {
 /// An aged run that is saved and taken up again, between and within its blocks, ends as the uninterrupted one.
 #[test]
 fn an_aged_run_goes_on_bit_for_bit() {
-    goes_on_bit_for_bit(&demonstration(&["age.tolerance=0.08"]), &[300, 555, 700]);
+    let sets = [
+        "age.tolerance=0.08",
+        "life.calibration_cycles=1e8",
+        "life.calibration_pressure_pa=1.5e9",
+    ];
+    goes_on_bit_for_bit(&demonstration(&sets), &[300, 555, 700]);
 }
 
 /// Without [age] nothing is taken off: every number of a run with [wear] is that of the run without it.

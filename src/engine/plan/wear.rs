@@ -7,7 +7,7 @@
 
 use crate::math::number::{length, sig};
 use crate::physics::hertz::Hertz;
-use crate::scene::{Age, Scene};
+use crate::scene::{Age, Life, Scene};
 
 /// Wear as the plan has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,12 +16,15 @@ pub struct WearPlan {
     pub most_a_cycle_m: [f64; 2],
     /// Loading cycles that are asked for.
     pub age: Option<Age>,
+    /// Whether it is followed where damage makes pits: surfaces age, and a calibration point makes damage absolute.
+    pub pits: bool,
 }
 
 impl WearPlan {
     /// Of a scene with a table `[wear]`.
     pub(super) fn new(scene: &Scene, hertz: &Hertz) -> Option<Self> {
         let wear = scene.wear?;
+        let calibration = scene.life.as_ref().and_then(Life::calibration);
         let slide_roll = scene.motion.slide_roll;
         // U_i/U: S = (U2 − U1)/U.
         let speeds = [1.0 - 0.5 * slide_roll, 1.0 + 0.5 * slide_roll];
@@ -33,6 +36,7 @@ impl WearPlan {
         Some(Self {
             most_a_cycle_m: [most(0), most(1)],
             age: scene.age,
+            pits: scene.age.is_some() && calibration.is_some(),
         })
     }
 
@@ -48,7 +52,14 @@ impl WearPlan {
             "wear where asperities touch: at most {one} and {two} a loading cycle of body 1 and 2"
         );
         match self.age {
-            Some(age) => format!("{most}; {} cycles by jumps", sig(age.cycles, 3)),
+            Some(age) => {
+                let pits = if self.pits {
+                    "damage fixed to the material, and pits where it reaches 1 by the calibration point"
+                } else {
+                    "no pits: life.calibration_cycles does not make damage absolute"
+                };
+                format!("{most}; {} cycles by jumps; {pits}", sig(age.cycles, 3))
+            }
             None => format!("{most}; one cycle is told, none is taken off"),
         }
     }

@@ -80,6 +80,10 @@ pub(super) struct CountingSpec {
     pub(super) laws: Option<Vec<StressLaw>>,
     /// Wavelengths of both bodies' crests along x, a.
     pub(super) waves: [Option<f64>; 2],
+    /// Blocks of both bodies whose pits are followed: length in a and columns; `None`: they are not.
+    pub(super) pits: [Option<(f64, usize)>; 2],
+    /// Fatigue limit of damage, p_h; 0: none.
+    pub(super) limit: f64,
 }
 
 impl Counting {
@@ -104,6 +108,20 @@ impl Counting {
             }
             MaterialTracker::new(tracker)
         };
+        let law = StressLaw {
+            exponent: spec.exponent,
+            limit: spec.limit,
+        };
+        let pits = spec.pits.map(|block| {
+            let (length, columns) = block?;
+            let spec = BlockSpec {
+                columns,
+                depths: spec.depths,
+                length,
+                offset: 0.0,
+            };
+            Some((spec, law))
+        });
         let profile = Profile {
             is_known: false,
             shear: vec![1.0; spec.depths],
@@ -120,7 +138,7 @@ impl Counting {
             reference_size: 1.0,
             exponent: spec.exponent,
             by_damage: (spec.laws.as_ref())
-                .map(|laws| DamageCount::new(grid, spec.depths, laws, spec.waves)),
+                .map(|laws| DamageCount::new(grid, spec.depths, laws, spec.waves, pits)),
         }
     }
 
@@ -150,7 +168,7 @@ impl Counting {
             profile.is_known = false;
         }
         if let Some(by_damage) = &mut self.by_damage {
-            by_damage.restart();
+            by_damage.restart(travelled);
         }
     }
 
@@ -275,6 +293,13 @@ impl Counting {
         let unit = self.reference * growth;
         let map = self.trackers[body.index()].map()?;
         (unit > 0.0).then_some((map, unit))
+    }
+
+    /// Damage of a loading cycle of a body's own by place and depth, over that of the worst point of the smooth contact of
+    /// `size` times the scene's, into `out`; false where it is not known.
+    pub(super) fn damage_by_place(&self, body: BodyId, size: f64, out: &mut [f64]) -> bool {
+        let worst = self.reference.powf(self.exponent.recip()) * size / self.reference_size;
+        (self.by_damage.as_ref()).is_some_and(|count| count.damage_by_place(body, worst, out))
     }
 
     /// Where the pit of a body starts, with its damage over that of the smooth contact.

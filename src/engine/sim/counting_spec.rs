@@ -29,6 +29,8 @@ pub(super) fn counting_spec(
         blocks: [0, 1]
             .map(|body: usize| (maps[body] && surfaces[body].has_block()).then(|| block(body))),
         laws: None,
+        pits: [None; 2],
+        limit: life.map_or(0.0, |life| life.limit_pa / plan.hertz.p_max_pa),
         waves: plan.waves.map(|wave| {
             let crests = wave?.crests_per_m;
             (crests > 0.0).then(|| 1.0 / (crests * a_m))

@@ -20,6 +20,7 @@ use crate::physics::cycles::BodyId;
 use crate::saved::saved;
 use crate::solve::axis::Line;
 use crate::solve::columns::Columns;
+use crate::solve::damage::BlockSpec;
 use crate::solve::material::MaterialTracker;
 use crate::solve::stress::StressLaw;
 
@@ -64,36 +65,45 @@ saved! {
 }
 
 impl DamageCount {
-    /// On `grid` at so many `depths` by `laws`; wavelengths of both bodies' crests along x in a.
+    /// On `grid` at so many `depths` by `laws`; wavelengths of both bodies' crests along x in a; blocks of both bodies over
+    /// whose places damage is summed up.
     pub(super) fn new(
         grid: &Grid,
         depths: usize,
         laws: &[StressLaw],
         waves: [Option<f64>; 2],
+        blocks: [Option<(BlockSpec, StressLaw)>; 2],
     ) -> Self {
         let needed = waves
             .iter()
             .flatten()
             .fold(LEAST_DISTANCE, |a, b| a.max(*b));
-        let body = |own: Option<f64>| BodyCount {
-            columns: Columns::new((grid.x_min, grid.dx), grid.nx, depths, laws),
+        let columns = |block: Option<(BlockSpec, StressLaw)>| {
+            let columns = Columns::new((grid.x_min, grid.dx), grid.nx, depths, laws);
+            match block {
+                Some((spec, law)) => columns.with_block(spec, law),
+                None => columns,
+            }
+        };
+        let body = |body: usize| BodyCount {
+            columns: columns(blocks[body]),
             distance: 0.0,
             cycles: vec![1.0; depths],
             ln_ratios: vec![0.0; laws.len() * depths],
-            own,
+            own: waves[body],
             needed,
         };
         Self {
-            bodies: waves.map(body),
+            bodies: [0, 1].map(body),
             fastest: 0.0,
             is_known: false,
         }
     }
 
-    /// Forgets all counts.
-    pub(super) fn restart(&mut self) {
-        for body in &mut self.bodies {
-            body.columns.restart();
+    /// Forgets all counts; the bodies have moved by `travelled` (in a).
+    pub(super) fn restart(&mut self, travelled: [f64; 2]) {
+        for (body, distance) in self.bodies.iter_mut().zip(travelled) {
+            body.columns.restart(distance);
             body.distance = 0.0;
         }
         (self.fastest, self.is_known) = (0.0, false);
@@ -141,6 +151,28 @@ impl DamageCount {
     pub(super) fn cycles(&self, body: BodyId) -> Option<&[f64]> {
         self.is_known
             .then_some(&self.bodies[body.index()].cycles[..])
+    }
+
+    /// Damage of a loading cycle of a body's own by place and depth, over that of a point whose greatest stress is `unit`
+    /// (p_h), into `out`, `[column · depths + k]`: n(z) < law(s_X) >/law(unit). A place that nothing has crossed keeps what it
+    /// has. False where it is not known.
+    pub(super) fn damage_by_place(&self, body: BodyId, unit: f64, out: &mut [f64]) -> bool {
+        let own = &self.bodies[body.index()];
+        let (Some(law), true) = (own.columns.block_law(), self.is_known) else {
+            return false;
+        };
+        let whole = law.of(unit as f32);
+        if whole <= 0.0 || own.distance <= 0.0 {
+            return false;
+        }
+        let turns = self.fastest / own.distance;
+        let depths = own.cycles.len();
+        for (at, out) in out.iter_mut().enumerate() {
+            if let Some(mean) = own.columns.block_damage(at / depths, at % depths) {
+                *out = own.cycles[at % depths] * turns * mean / whole;
+            }
+        }
+        true
     }
 
     /// ln r by depth of a body by a law.

@@ -17,11 +17,13 @@ use super::measure::Measured;
 use super::motion::Travel;
 use super::orbit::Orbit;
 use super::pace::Pace;
+use super::pits::Pits;
 use super::sim_plan::SimPlan;
 use super::smooth::Smooth;
+use super::stress_stage::StressStage;
 use super::totals::Totals;
 use super::work::Work;
-use super::worn::{MOST_JUMPS, Worn};
+use super::worn::{MOST_JUMPS, Worn, ring};
 use super::yielded::Yielded;
 use super::{AgePoint, Knob, MeshErrors, Metrics, Stage};
 use crate::math::grid::Grid;
@@ -131,14 +133,22 @@ pub(super) fn drive_of(scene: &Scene) -> Drive {
 }
 
 /// Nothing worn yet.
-fn worn(plan: &SimPlan, grid: &Grid, wear: Wear, repeats: [Option<f64>; 2]) -> Worn {
+fn worn(
+    plan: &SimPlan,
+    grid: &Grid,
+    wear: Wear,
+    repeats: [Option<f64>; 2],
+    depths: Option<&[f64]>,
+) -> Worn {
     let scaling = &plan.scaling;
     // Of P = 1 and a distance a, in film units.
     let unit_m = scaling.p_hertz_pa * scaling.a_m;
     let coefficients = wear.coefficients_per_pa();
     let age = plan.scene.age.map(|age| [age.cycles, age.tolerance]);
     let coefficients = coefficients.map(|k| scaling.h_from_m(k * unit_m));
-    Worn::new(grid, coefficients, repeats, age)
+    let unit = scaling.m_from_h(1.0) / scaling.a_m;
+    let pits = repeats.map(|repeat| Some(Pits::new(ring(grid, repeat).1, depths?, unit)));
+    Worn::new(grid, coefficients, repeats, age, pits)
 }
 
 impl State {
@@ -151,14 +161,18 @@ impl State {
         let contact = work.pool.install(|| work.solver.hertz(&plan.shape, film));
         let stress = work.stress.as_ref();
         let life = stress.and_then(|stress| LifeStage::new(scene, decided, stress));
+        let repeats = [0, 1].map(|body: usize| work.roughness.repeat(body));
+        let pits = decided.wear.is_some_and(|wear| wear.pits);
         let counting = stress.map(|stress| {
             let heading = plan.scaling.heading;
             let mut spec = counting_spec(scene, decided, heading, stress.depth_count());
+            if pits {
+                spec.pits = repeats.map(|repeat| Some(ring(&fine, repeat)));
+            }
             spec.laws = life.as_ref().map(|life| life.laws.clone());
             Counting::new(&fine, stress.depths(), &spec)
         });
         let targets = drive_of(scene);
-        let repeats = [0, 1].map(|body: usize| work.roughness.repeat(body));
         let yields = plan.hardness.is_finite();
         Self {
             nodes,
@@ -172,7 +186,10 @@ impl State {
                 Some(_) => MOST_JUMPS as usize + 2,
                 None => 0,
             }),
-            worn: scene.wear.map(|wear| worn(plan, &fine, wear, repeats)),
+            worn: scene.wear.map(|wear| {
+                let depths = stress.filter(|_| pits).map(StressStage::depths);
+                worn(plan, &fine, wear, repeats, depths)
+            }),
             watched: [0.0; 2],
             counting,
             life,

@@ -263,6 +263,19 @@ pub struct Summary {
     /// Same of body 2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wear_depth_2_m: Option<f64>,
+    /// Part of body 1's surface, along the line y = 0, that has pits; `None`: surfaces do not age, or the scene gives no
+    /// calibration point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitted_area_1: Option<f64>,
+    /// Same of body 2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitted_area_2: Option<f64>,
+    /// When and where body 1 has pits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pits_body_1: Option<PitHistory>,
+    /// Same of body 2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pits_body_2: Option<PitHistory>,
     /// What the surfaces came to on the way; empty: they were not aged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ages: Vec<AgePoint>,
@@ -303,6 +316,29 @@ pub struct PitStart {
     pub damage: f64,
 }
 
+/// Damage of a body that ages. Loading cycles are its own; `None`: not reached within the cycles of the run.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PitHistory {
+    /// Greatest damage that its material holds; 1: a pit.
+    pub damage_max: f64,
+    /// Where, below the new surface, m.
+    pub depth_m: f64,
+    /// Where along the period of the surface, as a part of it.
+    pub place: f64,
+    /// Loading cycles to the first pit.
+    pub first_cycles: Option<f64>,
+    /// Until 1 % of the surface has pits.
+    pub one_percent_cycles: Option<f64>,
+    /// Until 10 % has.
+    pub ten_percent_cycles: Option<f64>,
+    /// To the first pit of surfaces that stay new.
+    pub unworn_first_cycles: Option<f64>,
+    /// Until 1 % of such a surface has pits.
+    pub unworn_one_percent_cycles: Option<f64>,
+    /// Until 10 % has.
+    pub unworn_ten_percent_cycles: Option<f64>,
+}
+
 /// Surfaces after so many loading cycles: means over one block of passages.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct AgePoint {
@@ -312,6 +348,12 @@ pub struct AgePoint {
     pub wear_depth_1_m: f64,
     /// Same of body 2.
     pub wear_depth_2_m: f64,
+    /// Part of body 1's surface with pits; `None`: not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitted_area_1: Option<f64>,
+    /// Same of body 2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitted_area_2: Option<f64>,
     /// Root-mean-square height of body 1 in the domain, m, what has flowed and worn taken off.
     pub rq_1_m: f64,
     /// Same of body 2.

@@ -19,12 +19,14 @@
 //! nothing disturbs count, each as long as the run without ageing (`time.passages`).
 //!
 //! The rate of the predicted heights is the first one of the next jump (PEC): one block of passages a jump. A jump is taken
-//! again, shorter, where its error over the composite roughness (or the depth that is worn, if that is more) exceeds the
+//! again, shorter, where its error over the composite roughness (or the depth that is worn, if that is more), or that of the
+//! mean damage of the places that have no pit yet ([`super::pits`]), exceeds the
 //! tolerance; one that wears less than the tolerance itself is always good enough.
 
 use serde::{Deserialize, Serialize};
 
 use super::motion::BodyTravel;
+use super::pits::Pits;
 use crate::math::grid::Grid;
 use crate::physics::height_map::HeightMap;
 use crate::saved::saved;
@@ -43,13 +45,15 @@ pub(super) const MOST_JUMPS: u32 = 2000;
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Worn {
     skins: [Option<WornSkin>; 2],
+    /// What the material has suffered, where it can be told.
+    pub(super) pits: [Option<Pits>; 2],
     /// Distances (a) of body 1, of body 2 and at U where the block of passages began; `None`: nothing is counted yet.
     block: Option<[f64; 3]>,
     age: Option<Ageing>,
 }
 
 saved! {
-    Worn { parts: skins, age; free: block; }
+    Worn { parts: skins, pits, age; free: block; }
 }
 
 /// One body's.
@@ -58,6 +62,8 @@ struct WornSkin {
     /// λ_i, in a.
     length: f64,
     columns: usize,
+    /// Row of the grid that is y = 0, or next to it.
+    middle: usize,
     /// k_i, film units for a pressure of 1 over a distance of a.
     coefficient: f64,
     /// w as the surface is now, film units, shape ny × columns.
@@ -74,7 +80,7 @@ struct WornSkin {
 
 saved! {
     WornSkin {
-        same: length, columns, coefficient;
+        same: length, columns, middle, coefficient;
         parts: depth, base, rate, sum;
         free: volume;
     }
@@ -138,12 +144,13 @@ pub(super) struct Rubbing<'a> {
 
 impl Worn {
     /// Nothing yet. `coefficients`: [`WornSkin::coefficient`] of both; `repeats`: periods in a (`None`: smooth, infinite: it does not
-    /// vary along x); `age`: cycles and tolerance.
+    /// vary along x); `age`: cycles and tolerance; `pits`: sound material, on the columns of [`ring`].
     pub(super) fn new(
         grid: &Grid,
         coefficients: [f64; 2],
         repeats: [Option<f64>; 2],
         age: Option<[f64; 2]>,
+        pits: [Option<Pits>; 2],
     ) -> Self {
         let skin = |body: usize| {
             (coefficients[body] > 0.0)
@@ -151,6 +158,7 @@ impl Worn {
         };
         Self {
             skins: [skin(0), skin(1)],
+            pits,
             block: None,
             age: age.map(|[target, tolerance]| Ageing {
                 target,
@@ -249,26 +257,23 @@ impl Worn {
         }
     }
 
-    /// Ends the block of passages if it is as long as `length` at U, and jumps; `roughness`: composite, film units.
-    pub(super) fn end_block(
-        &mut self,
-        length: f64,
-        distance: f64,
-        travelled: [f64; 2],
-        roughness: f64,
-    ) -> Option<BlockEnd> {
+    /// Whether the block of passages is as long as `length` at U.
+    pub(super) fn is_block_over(&self, length: f64, distance: f64) -> bool {
+        let begun = self.block.map(|begun| begun[2]);
+        !self.is_done() && begun.is_some_and(|begun| distance - begun >= length * (1.0 - 1e-9))
+    }
+
+    /// Ends the block of passages, and jumps; `roughness`: composite, film units.
+    pub(super) fn end_block(&mut self, travelled: [f64; 2], roughness: f64) -> Option<BlockEnd> {
         let begun = self.block?;
         let age = self.age.as_mut()?;
-        if age.stage == AgeStage::Done || distance - begun[2] < length * (1.0 - 1e-9) {
-            return None;
-        }
         for (body, skin) in self.skins.iter_mut().enumerate() {
             if let Some(skin) = skin {
                 let share = skin.share(travelled[body] - begun[body]);
                 skin.sum.iter_mut().for_each(|sum| *sum *= share);
             }
         }
-        let end = age.decide(&mut self.skins, roughness);
+        let end = age.decide(&mut self.skins, &mut self.pits, roughness);
         self.forget_block();
         Some(end)
     }
@@ -276,7 +281,12 @@ impl Worn {
 
 impl Ageing {
     /// What the rates in `sum` mean for the jump.
-    fn decide(&mut self, skins: &mut [Option<WornSkin>; 2], roughness: f64) -> BlockEnd {
+    fn decide(
+        &mut self,
+        skins: &mut [Option<WornSkin>; 2],
+        pits: &mut [Option<Pits>; 2],
+        roughness: f64,
+    ) -> BlockEnd {
         let at_base = BlockEnd {
             cycles: Some(self.from),
             moved: false,
@@ -297,6 +307,7 @@ impl Ageing {
                 for skin in skins.iter_mut().flatten() {
                     skin.begin();
                 }
+                pits.iter_mut().flatten().for_each(Pits::begin);
                 self.stage = AgeStage::Tried;
                 self.jump_on(jump, skins);
                 BlockEnd {
@@ -304,20 +315,35 @@ impl Ageing {
                     ..at_base
                 }
             }
-            AgeStage::Tried => self.judge(skins, roughness),
+            AgeStage::Tried => self.judge(skins, pits, roughness),
         }
     }
 
     /// Whether the jump was good, and the next one.
-    fn judge(&mut self, skins: &mut [Option<WornSkin>; 2], roughness: f64) -> BlockEnd {
+    fn judge(
+        &mut self,
+        skins: &mut [Option<WornSkin>; 2],
+        pits: &mut [Option<Pits>; 2],
+        roughness: f64,
+    ) -> BlockEnd {
         self.jumps += 1;
         let worn = greatest(all(skins).flat_map(|skin| &skin.depth).copied());
         let scale = roughness.max(worn).max(f64::MIN_POSITIVE);
         let pairs = || all(skins).flat_map(|skin| skin.sum.iter().zip(&skin.rate));
         let apart = greatest(pairs().map(|(now, then)| (now - then).abs()));
         let fastest = greatest(pairs().map(|(now, then)| now.max(*then)));
-        let error = 0.5 * self.jump * apart / scale;
-        let is_good = error <= self.tolerance || self.jump * fastest / scale <= self.tolerance;
+        let heights = 0.5 * self.jump * apart / scale;
+        let worn_little = self.jump * fastest / scale <= self.tolerance;
+        let damage = pits.iter().zip(&*skins).filter_map(|(pits, skin)| {
+            Some((pits.as_ref()?).error(self.jump, |column| depth_of(skin.as_ref(), column)))
+        });
+        let damage = greatest(damage);
+        let is_good = (heights <= self.tolerance || worn_little) && damage <= self.tolerance;
+        let error = if worn_little {
+            damage
+        } else {
+            heights.max(damage)
+        };
         let factor = SAFETY * (self.tolerance / error.max(1e-12)).sqrt();
         let next = self.jump * factor.clamp(GROWTH[0], GROWTH[1]);
         if !is_good && self.jumps < MOST_JUMPS {
@@ -329,6 +355,13 @@ impl Ageing {
         }
         for skin in skins.iter_mut().flatten() {
             skin.accept(self.jump);
+        }
+        for (pits, skin) in pits.iter_mut().zip(&*skins) {
+            if let Some(pits) = pits {
+                pits.accept(self.from, self.jump, |column| {
+                    depth_of(skin.as_ref(), column)
+                });
+            }
         }
         self.from += self.jump;
         if self.from >= self.target * (1.0 - 1e-12) || self.jumps >= MOST_JUMPS {
@@ -355,21 +388,25 @@ fn all(skins: &[Option<WornSkin>; 2]) -> impl Iterator<Item = &WornSkin> {
     skins.iter().flatten()
 }
 
+/// What column `column` of a body has lost on the line y = 0, film units.
+fn depth_of(skin: Option<&WornSkin>, column: usize) -> f64 {
+    skin.map_or(0.0, |skin| skin.depth[skin.middle * skin.columns + column])
+}
+
 fn greatest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, f64::max)
 }
 
 impl WornSkin {
     fn new(grid: &Grid, coefficient: f64, repeat: Option<f64>) -> Self {
-        let (length, columns) = match repeat {
-            Some(wave) if wave.is_finite() => (wave, (wave / grid.dx).round().max(4.0) as usize),
-            // The same all along: one column.
-            Some(_) | None => (1.0, 1),
-        };
+        let (length, columns) = ring(grid, repeat);
+        let off = |j: &usize| grid.y(*j).abs();
+        let middle = (0..grid.ny).min_by(|one, two| off(one).total_cmp(&off(two)));
         let field = || vec![0.0; grid.ny * columns];
         Self {
             length,
             columns,
+            middle: middle.unwrap_or(0),
             coefficient,
             depth: field(),
             base: field(),
@@ -448,6 +485,15 @@ impl WornSkin {
     }
 }
 
+/// Length (in a) and columns of the ring that stands for a surface which comes again after `repeat` (in a).
+pub(super) fn ring(grid: &Grid, repeat: Option<f64>) -> (f64, usize) {
+    match repeat {
+        Some(wave) if wave.is_finite() => (wave, (wave / grid.dx).round().max(4.0) as usize),
+        // The same all along: one column.
+        Some(_) | None => (1.0, 1),
+    }
+}
+
 /// The four of `n` columns in a ring around a place, and their weights.
 fn around(place: f64, n: usize) -> ([usize; 4], [f64; 4]) {
     let middle = 0.5 * (n - 1) as f64;
@@ -511,7 +557,13 @@ mod tests {
             |x: f64| (1.0 - x * x).max(0.0).sqrt(),
             |x: f64| f64::from(u8::from(x.abs() < 0.7)),
         ] {
-            let mut worn = Worn::new(&grid, [1e-3, 2e-3], [None, Some(f64::INFINITY)], None);
+            let mut worn = Worn::new(
+                &grid,
+                [1e-3, 2e-3],
+                [None, Some(f64::INFINITY)],
+                None,
+                [None, None],
+            );
             pass(&mut worn, &grid, 400, |_, x, _| profile(x));
             let load: f64 = (0..grid.nx).map(|i| profile(grid.x(i)) * grid.dx).sum();
             let t = 0.7 * grid.dx * 400.0;
@@ -546,6 +598,7 @@ mod tests {
                 [k, 0.0],
                 [Some(wave), None],
                 Some([cycles, tolerance]),
+                [None, None],
             );
             let mut blocks = 0;
             while !worn.is_done() {
@@ -562,10 +615,7 @@ mod tests {
                 let skin = worn.skins[0].as_ref().expect("it wears");
                 let held = skin.sum.iter().sum::<f64>() * wave / skin.columns as f64;
                 assert!(blocks > 0 || (volume / held - 1.0).abs() < 1e-12 && none == 0.0);
-                assert!(
-                    worn.end_block(0.5 * t, t, [0.75 * t, 1.25 * t], 0.7)
-                        .is_some()
-                );
+                assert!(worn.end_block([0.75 * t, 1.25 * t], 0.7).is_some());
                 blocks += 1;
             }
             let left = amplitude(&worn) / (-1.0_f64).exp();

@@ -21,6 +21,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::axis::Line;
+use super::damage::{BlockSpec, DamageMap};
 use super::stress::StressLaw;
 use crate::saved::{any, saved};
 
@@ -61,13 +62,28 @@ pub struct Columns {
     sums: Vec<f64>,
     finished: u64,
     laws: Vec<StressLaw>,
+    /// Distance of the body when counting began, a.
+    origin: f64,
+    /// The same by place on the body, where it is asked for.
+    block: Option<Block>,
+}
+
+/// Damage of the greatest stress that each place of the body meets.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Block {
+    law: StressLaw,
+    map: DamageMap,
+}
+
+saved! {
+    Block { same: law; parts: map; }
 }
 
 saved! {
     Columns {
         same: nx, depths, x_first, dx, laws;
-        parts: greatest, followed, row, tops, sums;
-        free: part, nodes, finished;
+        parts: greatest, followed, row, tops, sums, block;
+        free: part, nodes, finished, origin;
     }
     holds |_, saved| (0.0..=1.0).contains(&saved.part) && saved.nodes.unsigned_abs() < 1 << 53
 }
@@ -89,11 +105,40 @@ impl Columns {
             sums: vec![0.0; laws.len() * depths],
             finished: 0,
             laws: laws.to_vec(),
+            origin: 0.0,
+            block: None,
         }
     }
 
-    /// Forgets all that was met.
-    pub fn restart(&mut self) {
+    /// Sums up the greatest stress of every crossing by `law` over the places of a block of the surface, too.
+    #[must_use]
+    pub fn with_block(mut self, spec: BlockSpec, law: StressLaw) -> Self {
+        let map = DamageMap::new(spec);
+        self.block = Some(Block { law, map });
+        self
+    }
+
+    /// Law of those sums.
+    pub fn block_law(&self) -> Option<StressLaw> {
+        self.block.as_ref().map(|block| block.law)
+    }
+
+    /// Mean damage of a crossing at a place of the block by depth; `None`: nothing has crossed there. As long as nothing has
+    /// crossed at all, every place meets the greatest stress there is.
+    pub fn block_damage(&self, column: usize, depth: usize) -> Option<f64> {
+        let block = self.block.as_ref()?;
+        if self.finished == 0 {
+            return Some(block.law.of(self.tops[depth]));
+        }
+        block.map.mean(column, depth)
+    }
+
+    /// Forgets all that was met; the body has moved by `distance` (in a).
+    pub fn restart(&mut self, distance: f64) {
+        self.origin = distance;
+        if let Some(block) = &mut self.block {
+            block.map.clear();
+        }
         self.greatest.fill(0.0);
         self.tops.fill(0.0);
         self.sums.fill(0.0);
@@ -152,15 +197,20 @@ impl Columns {
                 Followed::Part if ahead >= reach => self.followed[slot] = Followed::Whole,
                 Followed::Whole if ahead <= -reach => {
                     self.followed[slot] = Followed::Done;
-                    self.finish(slot);
+                    self.finish(slot, column);
                 }
                 Followed::Part | Followed::Whole | Followed::Done => {}
             }
         }
     }
 
-    fn finish(&mut self, slot: usize) {
+    fn finish(&mut self, slot: usize, column: usize) {
         self.finished += 1;
+        if let Some(Block { law, map }) = &mut self.block {
+            let place = self.x_first + (column as i64 - self.nodes) as f64 * self.dx - self.origin;
+            let greatest = self.greatest.iter().skip(slot).step_by(self.nx);
+            map.add(place, greatest.map(|&stress| law.of(stress)));
+        }
         for k in 0..self.depths {
             let greatest = self.greatest[k * self.nx + slot];
             let sums = self.sums.chunks_exact_mut(self.depths);

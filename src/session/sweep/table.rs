@@ -79,7 +79,7 @@ const COLUMNS: [&[(&str, InRecord)]; 7] = [
 
 /// Last columns, each there where a case has its number: scenes that ask for no wear and no heat have none of them.
 const ASKED: &[(&str, InRecord)] = optional! {
-    cycles wear_depth_1_m wear_depth_2_m
+    cycles wear_depth_1_m wear_depth_2_m pitted_area_1 pitted_area_2
     flash_temperature_max_k flash_temperature_mean_k contact_temperature_max_k
     film_temperature_max_k heat_share_1
     flash_temperature_blok_k inlet_heating_factor

@@ -115,6 +115,11 @@ impl LifeStage {
             .then(|| cycles * (ln / self.law.weibull_slope).exp())
     }
 
+    /// Loading cycles of the smooth contact of `size` times the scene's; `None`: the scene gives no calibration point.
+    pub(in crate::sim) fn smooth_cycles(&self, size: f64) -> Option<f64> {
+        Some(self.reference_cycles? * self.cycles_ratio(size / self.reference_size))
+    }
+
     /// What a growth of the smooth contact by `ratio` does to its life.
     pub(super) fn cycles_ratio(&self, ratio: f64) -> f64 {
         let model = self.variants[0].model;

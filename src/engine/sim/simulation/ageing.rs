@@ -5,7 +5,10 @@ use super::summary::summary;
 use super::view::View;
 use super::watching::see_again;
 use crate::math::grid::Grid;
+use crate::physics::cycles::BodyId;
 use crate::plan::TimeDependence;
+use crate::sim::counting::Counting;
+use crate::sim::fatigue_stage::LifeStage;
 use crate::sim::sim_plan::{DEVELOP, SimPlan};
 use crate::sim::state::Phase;
 use crate::sim::summary::AgePoint;
@@ -47,9 +50,13 @@ pub(super) fn age(
         TimeDependence::Steady { .. } => 0.0,
         TimeDependence::Transient => plan.decided.length_a,
     };
+    if !worn.is_block_over(length, state.distance) {
+        return;
+    }
     let depths_m = depths_m(plan, worn, state.motion.travelled);
-    let Some(end) = worn.end_block(length, state.distance, state.motion.travelled, roughness)
-    else {
+    let size = plan.size_now(&state.drive);
+    take_damage(worn, state.counting.as_ref(), state.life.as_ref(), size);
+    let Some(end) = worn.end_block(state.motion.travelled, roughness) else {
         return;
     };
     if let Some(cycles) = end.cycles {
@@ -67,6 +74,17 @@ pub(super) fn age(
         see_again(plan, state, work);
         state.motion.disturb(DEVELOP);
         forget_passage(plan, state);
+    }
+}
+
+/// Hands on what the block says of damage a loading cycle. What is not known stays as it was.
+fn take_damage(worn: &mut Worn, counting: Option<&Counting>, life: Option<&LifeStage>, size: f64) {
+    let cycles = life.and_then(|life| life.smooth_cycles(size));
+    for (body, pits) in BodyId::BOTH.into_iter().zip(&mut worn.pits) {
+        let (Some(pits), Some(counting), Some(cycles)) = (pits, counting, cycles) else {
+            continue;
+        };
+        pits.take(cycles, |out| counting.damage_by_place(body, size, out));
     }
 }
 
@@ -91,10 +109,14 @@ fn point(
         let rms = rms(&work.solver.grid, &heights[body]);
         plan.scaling.m_from_h(rms)
     });
+    let pits = state.worn.as_ref().map(|worn| &worn.pits);
+    let area = |body: usize| Some(pits?[body].as_ref()?.area());
     AgePoint {
         cycles,
         wear_depth_1_m: depths_m[0].unwrap_or(0.0),
         wear_depth_2_m: depths_m[1].unwrap_or(0.0),
+        pitted_area_1: area(0),
+        pitted_area_2: area(1),
         rq_1_m,
         rq_2_m,
         life_relative: found.life_relative,

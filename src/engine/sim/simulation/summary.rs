@@ -10,7 +10,8 @@ use crate::physics::iso281::{a_iso_radial_ball, kappa_from_lambda};
 use crate::sim::caution;
 use crate::sim::fatigue_stage::LifeStage;
 use crate::sim::heat_stage::{self, Warmth};
-use crate::sim::summary::PitStart;
+use crate::sim::pits::Pits;
+use crate::sim::summary::{PitHistory, PitStart};
 use crate::sim::{LifeEstimate, Stats, Summary};
 
 /// Result so far. What only its run knows (name, clock, steps planned, discretisation error) is left out.
@@ -25,6 +26,7 @@ pub(super) fn summary(sim: View, stats: &Stats) -> Summary {
     let worn = sim.state.worn.as_ref();
     let travelled = sim.state.motion.travelled;
     let depths_m = worn.map_or([None; 2], |worn| depths_m(sim.plan, worn, travelled));
+    let pits = [0, 1].map(|body: usize| worn?.pits[body].as_ref());
     let known = Summary {
         steps: sim.state.step,
         a_m: hertz.a_m * size,
@@ -45,6 +47,10 @@ pub(super) fn summary(sim: View, stats: &Stats) -> Summary {
         cycles: worn.map(|worn| worn.cycles().0),
         wear_depth_1_m: depths_m[0],
         wear_depth_2_m: depths_m[1],
+        pitted_area_1: pits[0].map(Pits::area),
+        pitted_area_2: pits[1].map(Pits::area),
+        pits_body_1: pits[0].map(|pits| pit_history(sim, pits)),
+        pits_body_2: pits[1].map(|pits| pit_history(sim, pits)),
         ages: sim.state.ages.clone(),
         ..life
     };
@@ -129,6 +135,23 @@ fn pit(sim: View, body: BodyId) -> Option<PitStart> {
         place_m: place_m(sim, pit.place, length),
         damage: pit.damage,
     })
+}
+
+/// What a body has suffered in all its cycles.
+fn pit_history(sim: View, pits: &Pits) -> PitHistory {
+    let (place, depth, damage_max) = pits.worst();
+    let (worn, unworn) = (pits.cycles(), pits.unworn_cycles());
+    PitHistory {
+        damage_max,
+        depth_m: sim.plan.scaling.m_from_x(depth),
+        place,
+        first_cycles: worn.first,
+        one_percent_cycles: worn.one_percent,
+        ten_percent_cycles: worn.ten_percent,
+        unworn_first_cycles: unworn.first,
+        unworn_one_percent_cycles: unworn.one_percent,
+        unworn_ten_percent_cycles: unworn.ten_percent,
+    }
 }
 
 /// Depth from which on a crossing counts less than 1.5 cycles of signed shear.
