@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use asperity_engine::observe::ObserveError;
-use asperity_engine::plan::Plan;
+use asperity_engine::plan::{LeftHeat, Plan};
 use asperity_engine::scene::{Override, Record, Scene, SceneError, presets};
 
 use super::args::{RunArgs, SceneArgs};
@@ -70,7 +70,16 @@ pub(crate) fn finish(args: &RunArgs, mut scene: Scene, name: String) -> Result<P
 /// Prints the plan, and what the scene says of where its numbers come from.
 pub(crate) fn check(args: &SceneArgs) -> Result<u8, Failure> {
     let scene = load(args)?;
-    let mut text = Plan::new(&scene)?.to_string();
+    let plan = Plan::new(&scene)?;
+    let mut text = plan.to_string();
+    if let Some(heat) = LeftHeat::new(&scene, &plan) {
+        text.push_str("\nHeat, left out: by closed forms\n");
+        for line in heat.lines() {
+            for part in ["  ", &line, "\n"] {
+                text.push_str(part);
+            }
+        }
+    }
     let mut lines = scene.about.trim().lines().peekable();
     if lines.peek().is_some() {
         text.push_str("\nThe scene says\n");

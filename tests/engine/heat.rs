@@ -3,6 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use crate::whole::{goes_on_bit_for_bit, run, scene, small_demonstration as demonstration};
+use asperity_engine::plan::{LeftHeat, Plan};
+use asperity_engine::scene::{Override, Scene};
 use asperity_engine::sim::Summary;
 
 /// A dry smooth line of steel.
@@ -210,4 +212,51 @@ fn a_run_with_warm_oil_goes_on_bit_for_bit() {
 #[test]
 fn a_warm_run_goes_on_bit_for_bit() {
     goes_on_bit_for_bit(&demonstration(&["heat.bulk_k=353"]), &[30, 100, 171]);
+}
+
+/// What a plan says that leaving heat out costs, by closed forms, beside runs with and without it: smooth bodies, Eyring's oil
+/// and lines, the preset's speeds and loads. Friction of cold oil within 5 %, what heat takes of it within .02 of it.
+#[test]
+fn the_plan_foretells_what_heat_does_to_friction() {
+    let smooth = [
+        "body_1.surface.kind=smooth",
+        "body_2.surface.kind=smooth",
+        "grid.nodes=129",
+    ];
+    for (preset, friction_falls) in [
+        ("fzg_point_a", true),
+        ("fzg_point_e", true),
+        ("fzg_point_b", true),
+        ("cam_nose", true),
+        ("ball_bearing", false),
+    ] {
+        let with = |more: &[&str]| {
+            let sets: Vec<Override> = smooth
+                .iter()
+                .chain(more)
+                .map(|set| set.parse().unwrap())
+                .collect();
+            Scene::load_with(preset, &sets).unwrap()
+        };
+        let cold = with(&[]);
+        let plan = Plan::new(&cold).unwrap();
+        let foretold = LeftHeat::new(&cold, &plan).unwrap();
+        let cold = run(&cold).friction_coefficient;
+        let warm = run(&with(&["heat.viscosity_temperature_exponent=1.1"]));
+        let found = [cold, warm.friction_coefficient];
+        println!(
+            "{preset}: friction {:.4} and {:.4} foretold, {:.4} and {:.4} found; flash {:.1} K foretold, {:.1} found",
+            foretold.friction[0],
+            foretold.friction[1],
+            found[0],
+            found[1],
+            foretold.flash_k[1],
+            warm.flash_temperature_max_k.unwrap()
+        );
+        assert!((foretold.friction[0] / found[0] - 1.0).abs() < 0.05);
+        let [theirs, ours] = [foretold.friction, found].map(|[cold, warm]| 1.0 - warm / cold);
+        assert!((theirs - ours).abs() < 0.02, "{theirs} {ours}");
+        assert_eq!(foretold.matters(), friction_falls);
+        assert!(LeftHeat::new(&with(&["heat.bulk_k=353"]), &plan).is_none());
+    }
 }

@@ -8,6 +8,7 @@ mod decide;
 mod display;
 mod domain;
 mod film;
+mod left_heat;
 mod life;
 mod range;
 pub mod recording;
@@ -19,6 +20,7 @@ mod wear;
 
 pub use cost::Cost;
 pub use domain::{Crests, Domain};
+pub use left_heat::LeftHeat;
 pub use life::{LifeAsked, LifePlan};
 pub use recording::RecordPlan;
 pub use resolution::{KnobsAt, Resolution};

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::scaling::Scaling;
 use crate::math::elementary::{exp, ln};
 use crate::math::grid::Grid;
-use crate::physics::heat_estimate::{blok_k, inlet_factor};
+use crate::physics::heat_estimate::inlet_factor;
 use crate::physics::thinning::{Sheared, Thinning, thinned_row};
 use crate::saved::saved;
 use crate::scene::Scene;
@@ -576,15 +576,7 @@ impl Warmth {
 
 /// Blok's flash temperature for a coefficient of friction, K.
 pub(super) fn blok(scene: &Scene, friction: f64, half_width_m: f64, p_hertz_pa: f64) -> f64 {
-    let effusivities = [&scene.body_1, &scene.body_2].map(|body| {
-        let heat = body.heat.unwrap_or_default();
-        let capacity = heat.density_kg_m3 * heat.heat_capacity_j_kgk;
-        (heat.thermal_conductivity_w_mk * capacity).sqrt()
-    });
-    let speeds = scene.speeds_m_s();
-    let sliding = (speeds[1] - speeds[0]).abs();
-    let heat = friction * std::f64::consts::FRAC_PI_2 * p_hertz_pa * half_width_m * sliding;
-    blok_k(heat, half_width_m, effusivities, speeds)
+    scene.flash_by_blok_k(friction, half_width_m, p_hertz_pa)
 }
 
 /// Wilson and Sheu's factor of the film; `None`: dry, or nobody knows how the viscosity falls.
