@@ -27,7 +27,7 @@ use std::borrow::Cow;
 pub use ramp::Ramp;
 pub use scope::{Ranges, Scope, ToCome};
 
-use asperity_engine::math::number::{GPA, MPA, UM, Unit, divisions, tick};
+use asperity_engine::math::number::{GPA, KELVIN, MPA, UM, Unit, divisions, tick};
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::Frame;
 
@@ -50,6 +50,12 @@ pub enum Subject {
     Contact,
     /// Shear traction on body 1.
     Traction,
+    /// Rise of body 1's surface over the bulk's temperature.
+    Surface1,
+    /// Of body 2's.
+    Surface2,
+    /// Of the oil in the middle of the film.
+    OilRise,
     /// Roughness of body 1.
     Roughness1,
     /// Roughness of body 2.
@@ -71,6 +77,9 @@ impl Subject {
             Self::Interferogram => "Film as an interferogram",
             Self::Contact => "Contact",
             Self::Traction => "Shear traction on body 1",
+            Self::Surface1 => "Surface of body 1 over the bulk",
+            Self::Surface2 => "Surface of body 2 over the bulk",
+            Self::OilRise => "Middle of the film over the bulk",
             Self::Roughness1 => "Roughness of body 1",
             Self::Roughness2 => "Roughness of body 2",
             Self::RoughnessOfBoth => "Roughness of both bodies",
@@ -86,10 +95,14 @@ impl Subject {
 
     /// Its field in a frame; `None` where the scene computes none.
     pub fn field(self, frame: &Frame) -> Option<Cow<'_, [f32]>> {
+        let known = |field| Some(field).filter(|field: &&Vec<f32>| !field.is_empty());
         let field = match self {
             Self::Pressure | Self::Contact => &frame.pressure_pa,
             Self::Film | Self::Interferogram => &frame.film_m,
             Self::Traction => &frame.traction_pa,
+            Self::Surface1 => known(&frame.surface_rise_k[0])?,
+            Self::Surface2 => known(&frame.surface_rise_k[1])?,
+            Self::OilRise => known(&frame.film_rise_k)?,
             Self::Roughness1 => &frame.roughness_1_m,
             Self::Roughness2 => &frame.roughness_2_m,
             Self::EffectiveStress => &frame.slice.as_ref()?.effective_pa,
@@ -188,6 +201,10 @@ impl Look {
                 ..film
             },
             Subject::Traction => Self::up_to("shear", MPA, ranges.traction_pa, Ramp::Diverging),
+            Subject::Surface1 | Subject::Surface2 => {
+                Self::up_to("rise", KELVIN, ranges.surface_rise_k, Ramp::Inferno)
+            }
+            Subject::OilRise => Self::up_to("rise", KELVIN, ranges.film_rise_k, Ramp::Inferno),
             Subject::Roughness1 | Subject::Roughness2 => {
                 Self::up_to("height", UM, ranges.roughness_m, Ramp::Diverging)
             }

@@ -9,6 +9,7 @@ use asperity_engine::sim::{Frame, Knob, Metrics};
 #[derive(Debug, Clone)]
 struct First {
     kind: ContactKind,
+    a_m: f64,
     p_hertz_pa: f64,
     metrics: Metrics,
     /// Greatest of either sign, SI: traction, roughness of both bodies, effective stress and shear of the slice.
@@ -16,6 +17,8 @@ struct First {
     roughness_m: [f64; 2],
     effective_pa: f64,
     shear_pa: f64,
+    /// Rise of surfaces and oil, K; 0: cold, or not known.
+    rises_k: [f64; 2],
 }
 
 impl First {
@@ -23,12 +26,17 @@ impl First {
         let slice = frame.slice.as_ref();
         Self {
             kind: frame.kind,
+            a_m: frame.a_m,
             p_hertz_pa: frame.p_hertz_pa,
             metrics: frame.metrics.clone(),
             traction_pa: greatest(&frame.traction_pa),
             roughness_m: [&frame.roughness_1_m, &frame.roughness_2_m].map(|field| greatest(field)),
             effective_pa: slice.map_or(0.0, |slice| greatest(&slice.effective_pa)),
             shear_pa: slice.map_or(0.0, |slice| greatest(&slice.tau_xz_pa)),
+            rises_k: [
+                frame.metrics.flash_temperature_k.unwrap_or(0.0),
+                greatest(&frame.film_rise_k),
+            ],
         }
     }
 }
@@ -39,6 +47,7 @@ struct TurnedKnobs {
     load: f64,
     speed_m_s: f64,
     amplitude_m: [f64; 2],
+    slide_roll: f64,
 }
 
 impl TurnedKnobs {
@@ -47,6 +56,7 @@ impl TurnedKnobs {
             load: m.load_n.max(m.load_target_n),
             speed_m_s: m.entrainment_m_s.abs(),
             amplitude_m: [m.amplitude_1_m, m.amplitude_2_m].map(f64::abs),
+            slide_roll: m.slide_roll.abs().max(m.slide_roll_target.abs()),
         }
     }
 
@@ -56,6 +66,7 @@ impl TurnedKnobs {
             load: self.load.max(other.load),
             speed_m_s: self.speed_m_s.max(other.speed_m_s),
             amplitude_m: [both(0), both(1)],
+            slide_roll: self.slide_roll.max(other.slide_roll),
         }
     }
 }
@@ -128,6 +139,8 @@ pub struct ToCome {
     crest_pa: f64,
     /// Greatest traction over pressure: limiting shear of the oil or boundary friction; 0: not known.
     friction: f64,
+    /// Blok's flash temperature, K; 0: the scene asks for no heat.
+    flash_k: f64,
     /// Which bodies are rough, or may be made so.
     rough: [bool; 2],
 }
@@ -141,6 +154,7 @@ impl ToCome {
             amplitude_m: [both(0), both(1)],
             crest_pa: self.crest_pa.max(other.crest_pa),
             friction: self.friction.max(other.friction),
+            flash_k: self.flash_k.max(other.flash_k),
             rough: [0, 1].map(|k| self.rough[k] || other.rough[k]),
         }
     }
@@ -203,6 +217,17 @@ impl ToCome {
                     .map_or(0.0, |oil| oil.limiting_shear_ratio);
                 oil.max(scene.friction.boundary)
             }),
+            flash_k: scene
+                .filter(|scene| scene.heat.is_some())
+                .map_or(0.0, |scene| {
+                    let slide_roll = greatest(&[Knob::SlideRoll], turned.slide_roll);
+                    // Only what slides faster than in the first frame is warmer than it tells.
+                    if slide_roll <= 1.001 * m.slide_roll.abs() {
+                        return 0.0;
+                    }
+                    let (a_m, p_pa) = (size * first.a_m, size * first.p_hertz_pa);
+                    scene.flash_by_blok_k(slide_roll, USUAL_FRICTION, a_m, p_pa)
+                }),
             rough: scene.map_or([false; 2], |scene| {
                 scene
                     .surfaces()
@@ -212,6 +237,10 @@ impl ToCome {
     }
 }
 
+/// Friction coefficient of sheared oil, for the range of what it warms.
+const USUAL_FRICTION: f64 = 0.05;
+/// The least range of a rise of temperature, K.
+const COOLEST_K: f64 = 2.0;
 /// Exponent of the speed in the central film (Hamrock and Dowson 1977).
 const FILM_BY_SPEED: f64 = 0.67;
 
@@ -233,6 +262,10 @@ pub struct Ranges {
     pub effective_pa: f64,
     /// Orthogonal shear of either sign, Pa.
     pub shear_pa: f64,
+    /// Rise of a surface over the bulk, K.
+    pub surface_rise_k: f64,
+    /// Same in the middle of the film.
+    pub film_rise_k: f64,
     /// Which bodies are rough, or may be made so.
     pub rough: [bool; 2],
 }
@@ -247,6 +280,8 @@ impl Ranges {
             roughness_of_both_m: self.roughness_of_both_m.max(other.roughness_of_both_m),
             effective_pa: self.effective_pa.max(other.effective_pa),
             shear_pa: self.shear_pa.max(other.shear_pa),
+            surface_rise_k: self.surface_rise_k.max(other.surface_rise_k),
+            film_rise_k: self.film_rise_k.max(other.film_rise_k),
             rough: [0, 1].map(|k| self.rough[k] || other.rough[k]),
         }
     }
@@ -272,6 +307,9 @@ impl Ranges {
         let traction = (first.traction_pa)
             .max(0.01 * first.p_hertz_pa)
             .max(to_come.friction * pressure_pa);
+        let warm = |seen: f64, times: f64| {
+            nice_ceiling((1.3 * seen).max(times * to_come.flash_k).max(COOLEST_K))
+        };
         let rough = first.roughness_m;
         let [rough_1, rough_2] = [0, 1].map(|body| rough[body].max(to_come.amplitude_m[body]));
         Self {
@@ -290,6 +328,9 @@ impl Ranges {
                 GPA,
             ),
             shear_pa: round((1.05 * first.shear_pa).max(0.15 * pressure_pa), GPA),
+            // Crests are warmer than Blok's smooth contact, and the oil between them is by more.
+            surface_rise_k: warm(first.rises_k[0], 1.0),
+            film_rise_k: warm(first.rises_k[1], 2.0),
             rough: [0, 1].map(|body| rough[body] > 0.0 || to_come.rough[body]),
         }
     }

@@ -5,6 +5,9 @@ pub(crate) mod maps {
     pub(crate) const PRESSURE: &str = "maps/pressure_GPa";
     pub(crate) const FILM: &str = "maps/film_um";
     pub(crate) const TRACTION: &str = "maps/traction_on_body_1_MPa";
+    pub(crate) const SURFACE_1: &str = "maps/surface_1_rise_K";
+    pub(crate) const SURFACE_2: &str = "maps/surface_2_rise_K";
+    pub(crate) const OIL_RISE: &str = "maps/film_rise_K";
     pub(crate) const ROUGHNESS_1: &str = "maps/roughness_body_1_um";
     pub(crate) const ROUGHNESS_2: &str = "maps/roughness_body_2_um";
     /// Drawn over the film.

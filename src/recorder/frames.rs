@@ -21,7 +21,7 @@ use super::moment::STEP;
 use super::note::Note;
 use super::repeat::RereadError;
 use super::scalars::{self, RowReader};
-use asperity_engine::math::number::{GPA, MPA, UM, Unit};
+use asperity_engine::math::number::{GPA, KELVIN, MPA, UM, Unit};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{DamageBlock, Frame, StressSlice};
 
@@ -178,6 +178,9 @@ impl RecordedFrames {
         frame.pressure_pa = map(maps::PRESSURE, GPA)?;
         frame.film_m = map(maps::FILM, UM)?;
         frame.traction_pa = map(maps::TRACTION, MPA).unwrap_or_else(flat);
+        frame.surface_rise_k = [maps::SURFACE_1, maps::SURFACE_2]
+            .map(|entity| map(entity, KELVIN).unwrap_or_default());
+        frame.film_rise_k = map(maps::OIL_RISE, KELVIN).unwrap_or_default();
         frame.roughness_1_m = map(maps::ROUGHNESS_1, UM).unwrap_or_else(flat);
         frame.roughness_2_m = map(maps::ROUGHNESS_2, UM).unwrap_or_else(flat);
         let touches = self
@@ -422,6 +425,9 @@ impl FoundRows {
             maps::TRACTION,
             maps::ROUGHNESS_1,
             maps::ROUGHNESS_2,
+            maps::SURFACE_1,
+            maps::SURFACE_2,
+            maps::OIL_RISE,
             slice::EFFECTIVE,
             slice::TAU_XZ,
             DAMAGE[0],

@@ -5,7 +5,10 @@ use rerun::{AsComponents, ChannelDatatype};
 
 use super::classes;
 use super::colour::WHITE;
-use super::entities::maps::{CONTACT, FILM, HERTZ, PRESSURE, ROUGHNESS_1, ROUGHNESS_2, TRACTION};
+use super::entities::maps::{
+    CONTACT, FILM, HERTZ, OIL_RISE, PRESSURE, ROUGHNESS_1, ROUGHNESS_2, SURFACE_1, SURFACE_2,
+    TRACTION,
+};
 use super::geometry::Geometry;
 use super::interferogram::Interferogram;
 use super::picture::{Field, PixelField};
@@ -26,6 +29,22 @@ const MAPS: [(&str, Subject); 5] = [
     (ROUGHNESS_1, Subject::Roughness1),
     (ROUGHNESS_2, Subject::Roughness2),
 ];
+
+/// The same of temperature.
+const RISES: [(&str, Subject); 3] = [
+    (SURFACE_1, Subject::Surface1),
+    (SURFACE_2, Subject::Surface2),
+    (OIL_RISE, Subject::OilRise),
+];
+
+/// What a run with that first frame shows of temperature.
+pub(crate) fn rises(first: &Frame) -> &'static [(&'static str, Subject)] {
+    if first.film_rise_k.is_empty() {
+        &[]
+    } else {
+        &RISES
+    }
+}
 
 /// A map.
 struct Map {
@@ -58,7 +77,12 @@ pub(crate) struct Maps {
 
 impl Maps {
     /// Sets up the maps.
-    pub(crate) fn new(stream: &Stream, geometry: Geometry, ranges: &Ranges) -> Self {
+    pub(crate) fn new(
+        stream: &Stream,
+        geometry: Geometry,
+        ranges: &Ranges,
+        rises: &[(&'static str, Subject)],
+    ) -> Self {
         let is_shown = |subject: &Subject| match subject {
             Subject::Roughness1 => ranges.rough[0],
             Subject::Roughness2 => ranges.rough[1],
@@ -67,11 +91,15 @@ impl Maps {
             | Subject::Interferogram
             | Subject::Contact
             | Subject::Traction
+            | Subject::Surface1
+            | Subject::Surface2
+            | Subject::OilRise
             | Subject::RoughnessOfBoth
             | Subject::EffectiveStress
             | Subject::ShearStress => true,
         };
-        let shown = MAPS.into_iter().filter(|(_, subject)| is_shown(subject));
+        let all = MAPS.iter().chain(rises).copied();
+        let shown = all.filter(|(_, subject)| is_shown(subject));
         let (pixels, plot) = (pixels(geometry), plot_box(geometry));
         let maps = shown.map(|(entity, subject)| {
             let look = Look::of(subject, ranges);

@@ -225,7 +225,7 @@ fn map_views(
     scope: &Scope,
     shown: &mut ShownViews,
 ) -> Vec<Box<dyn View>> {
-    let maps = Maps::new(stream, geometry, &scope.ranges);
+    let maps = Maps::new(stream, geometry, &scope.ranges, shown.rises);
     shown.interferogram = maps.interferogram().plot().clone();
     let slice = Slice::computed(stream, geometry, first, &scope.ranges);
     shown.slice = slice.as_ref().map(|slice| slice.plot().clone());

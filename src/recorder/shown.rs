@@ -1,10 +1,11 @@
 //! What the layout has to know of the pictures.
 
+use super::maps::rises;
 use super::plot::PlotBox;
 use super::tooth::ShownTooth;
 use asperity_engine::scene::{ContactKind, Life, Scene};
 use asperity_engine::sim::Frame;
-use asperity_picture::Scope;
+use asperity_picture::{Scope, Subject};
 
 /// What the first frame tells the layout.
 pub(crate) struct ShownViews {
@@ -34,6 +35,8 @@ pub(crate) struct ShownViews {
     pub(crate) life: bool,
     /// Whether a body has a hardness at which it flows.
     pub(crate) yields: bool,
+    /// Maps of temperature; none where the scene asks for no heat.
+    pub(crate) rises: &'static [(&'static str, Subject)],
 }
 
 impl ShownViews {
@@ -60,6 +63,7 @@ impl ShownViews {
             damaged: life.map_or([false; 2], Life::maps),
             life: first.metrics.life.is_some(),
             yields: first.metrics.yielded_m3.is_some(),
+            rises: rises(first),
         }
     }
 }

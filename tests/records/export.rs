@@ -118,10 +118,20 @@ mod from_a_recording {
         }
     }
 
+    /// The frame of a run with heat.
+    fn warm(frame: &Frame) -> Frame {
+        let rise = |k_per_pa: f32| frame.pressure_pa.iter().map(|p| p * k_per_pa).collect();
+        Frame {
+            surface_rise_k: [rise(1e-8), rise(2e-8)],
+            film_rise_k: rise(5e-8),
+            ..frame.clone()
+        }
+    }
+
     /// Frames, and the same from a recording of them.
     fn both(folder: &Path, steps: u64) -> (Vec<Arc<Frame>>, RecordedFrames) {
         let frames: Vec<Arc<Frame>> = (1..=steps)
-            .map(|step| synthetic::frame(NODES, step))
+            .map(|step| Arc::new(warm(&synthetic::frame(NODES, step))))
             .collect();
         let path = folder.join("run.rrd");
         let record = Record {

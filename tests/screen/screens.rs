@@ -111,15 +111,27 @@ fn profiles() {
 #[test]
 fn every_map() {
     let mut app = running(plain());
-    for kind in MapKind::ALL {
-        insta::assert_snapshot!(
-            format!("map_{}", kind.name().replace(' ', "_")),
-            text(&app, 80, 24)
-        );
+    let show = |app: &App| {
+        let name = format!("map_{}", app.map().name().replace(' ', "_"));
+        insta::assert_snapshot!(name, text(app, 80, 24));
+    };
+    // Where nobody asks for heat there is no temperature.
+    for _ in 1..MapKind::ALL.len() {
+        show(&app);
         app.apply(Action::NextMap);
     }
+    assert_eq!(app.map(), MapKind::default());
     app.apply(Action::Zoom);
     insta::assert_snapshot!("map_whole_domain", text(&app, 120, 36));
+    app.apply(Action::Zoom);
+    let mut warm = Frame::clone(app.frame().unwrap());
+    warm.film_rise_k = warm.pressure_pa.iter().map(|p| p * 1e-8).collect();
+    warm.metrics.flash_temperature_k = Some(17.5);
+    app.take_frame(Arc::new(warm));
+    while app.map() != MapKind::Temperature {
+        app.apply(Action::NextMap);
+    }
+    show(&app);
 }
 
 #[test]

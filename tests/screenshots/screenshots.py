@@ -163,12 +163,14 @@ def in_browser(arguments, url):
 
 
 def written(file, seconds=30):
-    """Waits for the whole picture: the viewer writes it in its own time, and is ended after the last."""
+    """The whole picture, waited for: the viewer writes it in its own time, may begin it anew, and is ended after the last."""
     until = time.monotonic() + seconds
-    while not (file.exists() and file.read_bytes()[-8:-4] == b"IEND"):
-        if time.monotonic() > until:
-            sys.exit(f"{file} was not written")
+    while time.monotonic() < until:
+        picture = file.read_bytes() if file.exists() else b""
+        if picture[-8:-4] == b"IEND":
+            return picture
         time.sleep(0.2)
+    sys.exit(f"{file} was not written")
 
 
 def share_that_differs(one, other):
@@ -198,8 +200,7 @@ def picture_of_tab(save, file, before, arguments):
         time.sleep(arguments.settle)
         file.unlink(missing_ok=True)
         save(file)
-        written(file)
-        picture = file.read_bytes()
+        picture = written(file)
         other_than_before = share_that_differs(before, picture) > 0.02
         stands_still = last is not None and share_that_differs(last, picture) < 0.002
         if other_than_before and stands_still:

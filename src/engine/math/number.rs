@@ -171,6 +171,8 @@ pub fn plain(value: f64) -> String {
 pub const MM: f64 = 1.0e3;
 /// Of pressure and stress.
 pub const GPA: Unit = Unit::new("GPa", 1e-9);
+/// Of temperature.
+pub const KELVIN: Unit = Unit::new("K", 1.0);
 /// Of shear.
 pub const MPA: Unit = Unit::new("MPa", 1e-6);
 /// Of films.

@@ -53,7 +53,9 @@ impl LeftHeat {
             return None;
         }
         let hertz = &plan.hertz;
-        let blok = |friction: f64| scene.flash_by_blok_k(friction, hertz.a_m, hertz.p_max_pa);
+        let blok = |friction: f64| {
+            scene.flash_by_blok_k(scene.motion.slide_roll, friction, hertz.a_m, hertz.p_max_pa)
+        };
         let heat = scene.heat.unwrap_or_default();
         let film_m = plan.film.map_or(0.0, |film| film.central_m);
         let wet = (scene.lubricant.as_ref())

@@ -47,14 +47,21 @@ impl Scene {
 }
 
 impl Scene {
-    /// Blok's flash temperature for a coefficient of friction and a Hertz contact, K.
-    pub fn flash_by_blok_k(&self, friction: f64, half_width_m: f64, p_hertz_pa: f64) -> f64 {
+    /// Blok's flash temperature for a coefficient of friction and a Hertz contact at the scene's speed and `slide_roll`, K.
+    pub fn flash_by_blok_k(
+        &self,
+        slide_roll: f64,
+        friction: f64,
+        half_width_m: f64,
+        p_hertz_pa: f64,
+    ) -> f64 {
         let effusivities = [&self.body_1, &self.body_2].map(|body| {
             let heat = body.heat.unwrap_or_default();
             let capacity = heat.density_kg_m3 * heat.heat_capacity_j_kgk;
             (heat.thermal_conductivity_w_mk * capacity).sqrt()
         });
-        let speeds = self.speeds_m_s();
+        let u = self.motion.entrainment_m_s;
+        let speeds = [u * (1.0 - 0.5 * slide_roll), u * (1.0 + 0.5 * slide_roll)];
         let sliding = (speeds[1] - speeds[0]).abs();
         let heat = friction * std::f64::consts::FRAC_PI_2 * p_hertz_pa * half_width_m * sliding;
         blok_k(heat, half_width_m, effusivities, speeds)

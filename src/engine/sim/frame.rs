@@ -79,6 +79,10 @@ pub struct Frame {
     pub roughness_2_m: Vec<f32>,
     /// Shear traction on body 1 along +x, Pa (positive when body 2 is the faster).
     pub traction_pa: Vec<f32>,
+    /// Rise of the surfaces of body 1 and 2 over the bulk's temperature, K; empty where the scene asks for no heat.
+    pub surface_rise_k: [Vec<f32>; 2],
+    /// The same in the middle of the film; dry the mean of both surfaces.
+    pub film_rise_k: Vec<f32>,
     /// 1 where asperities touch (film at or below the scene's contact film), else 0.
     pub contact: Vec<u8>,
     /// Stress of body 1 in the plane y = 0; `None` where the scene asks for none.
@@ -182,6 +186,9 @@ pub struct Metrics {
     /// Where along x the load acts, m: the load times it is the moment about the line of centres that rolling has to overcome.
     #[serde(default)]
     pub load_centre_x_m: f64,
+    /// Greatest rise of a surface over the bulk's temperature, K; `None`: the scene asks for no heat.
+    #[serde(default)]
+    pub flash_temperature_k: Option<f64>,
     /// What body 1 and 2 have yielded since the roughness came up, m³ (of a line m³ per metre of length); `None`: both
     /// are elastic.
     #[serde(default)]

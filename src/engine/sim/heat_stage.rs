@@ -52,6 +52,8 @@ pub(super) struct HeatStage {
     now: Film,
     /// c and Q_p as the step has been solved with.
     solved: [Vec<f64>; 2],
+    /// Rise in the middle of the film over the bulk, K.
+    middle: Vec<f64>,
 }
 
 /// The oil at every node.
@@ -146,6 +148,7 @@ impl HeatStage {
             oil: (scene.lubricant.as_ref()).map(|_| asked.thermal_conductivity_w_mk),
             now: Film::cold(grid.len()),
             solved: [vec![0.0; grid.len()], vec![0.0; grid.len()]],
+            middle: vec![0.0; grid.len()],
             traction: vec![0.0; grid.len()],
             changes: vec![[0.0; 2]; grid.ny],
             nodes: vec![std::array::from_fn(|_| vec![0.0; grid.nx]); grid.ny],
@@ -176,6 +179,16 @@ impl HeatStage {
     /// Shift of ln η̄ for the traction.
     pub(super) fn shift(&self) -> &[f64] {
         &self.now.shift
+    }
+
+    /// Rise of both surfaces, K.
+    pub(super) fn rises(&self) -> [&[f64]; 2] {
+        [0, 1].map(|body: usize| &self.heat.rise[body][..])
+    }
+
+    /// Rise in the middle of the film, dry of both surfaces' mean, K.
+    pub(super) fn film_rise(&self) -> &[f64] {
+        &self.middle
     }
 
     /// A step begins; its film is as warm as the last one's.
@@ -211,6 +224,10 @@ impl HeatStage {
 
     /// The step has been made.
     pub(super) fn commit(&mut self, warmth: &mut Warmth) {
+        let parts = self.now.walls_k.iter().zip(&self.now.middle_k);
+        for (whole, (walls, middle)) in self.middle.iter_mut().zip(parts) {
+            *whole = walls + middle;
+        }
         warmth.film.copy(&self.now);
         self.heat.commit(&mut warmth.state);
     }
@@ -310,7 +327,8 @@ impl HeatStage {
         self.commit(warmth);
     }
 
-    fn greatest_k(&self) -> f64 {
+    /// Greatest rise of a surface, K.
+    pub(super) fn greatest_k(&self) -> f64 {
         let both = self.heat.rise[0].iter().chain(&self.heat.rise[1]);
         both.copied().fold(0.0, f64::max)
     }
@@ -576,7 +594,7 @@ impl Warmth {
 
 /// Blok's flash temperature for a coefficient of friction, K.
 pub(super) fn blok(scene: &Scene, friction: f64, half_width_m: f64, p_hertz_pa: f64) -> f64 {
-    scene.flash_by_blok_k(friction, half_width_m, p_hertz_pa)
+    scene.flash_by_blok_k(scene.motion.slide_roll, friction, half_width_m, p_hertz_pa)
 }
 
 /// Wilson and Sheu's factor of the film; `None`: dry, or nobody knows how the viscosity falls.

@@ -76,6 +76,18 @@ impl HeatStage {
         match *self {}
     }
 
+    pub(super) fn greatest_k(&self) -> f64 {
+        match *self {}
+    }
+
+    pub(super) fn rises(&self) -> [&[f64]; 2] {
+        match *self {}
+    }
+
+    pub(super) fn film_rise(&self) -> &[f64] {
+        match *self {}
+    }
+
     pub(super) fn begin(&mut self, _: &mut Warmth, _: Times) {
         match *self {}
     }

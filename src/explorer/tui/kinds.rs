@@ -22,6 +22,8 @@ pub enum MapKind {
     Contact,
     /// Sum of both roughnesses.
     Roughness,
+    /// Rise of temperature in the middle of the film.
+    Temperature,
     /// Effective stress in the plane y = 0.
     Stress,
     /// Pressure on the centre line over time.
@@ -34,13 +36,14 @@ pub enum MapKind {
 
 impl MapKind {
     /// All maps in the order of the key.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Pressure,
         Self::Profile,
         Self::Film,
         Self::Fringes,
         Self::Contact,
         Self::Roughness,
+        Self::Temperature,
         Self::Stress,
         Self::PressureWaves,
         Self::FilmWaves,
@@ -54,6 +57,7 @@ impl MapKind {
             Self::Fringes => "interferogram",
             Self::Contact => "asperity contact",
             Self::Roughness => "roughness",
+            Self::Temperature => "temperature",
             Self::Stress => "stress below",
             Self::PressureWaves => "pressure x-t",
             Self::FilmWaves => "film x-t",
@@ -69,6 +73,7 @@ impl MapKind {
             Self::Fringes => Subject::Interferogram,
             Self::Contact => Subject::Contact,
             Self::Roughness => Subject::RoughnessOfBoth,
+            Self::Temperature => Subject::OilRise,
             Self::Stress => Subject::EffectiveStress,
         }
     }

@@ -44,9 +44,14 @@ impl Units {
             (Dimension::Speed, _) => self.speed(),
             (Dimension::Load, ContactKind::Point) => self.force(),
             (Dimension::Load, ContactKind::Line) => self.force_per_length(),
-            (Dimension::Plain | Dimension::Share | Dimension::Time | Dimension::Volume, _) => {
-                dimension.unit(kind)
-            }
+            (
+                Dimension::Plain
+                | Dimension::Share
+                | Dimension::Time
+                | Dimension::Volume
+                | Dimension::Temperature,
+                _,
+            ) => dimension.unit(kind),
         }
     }
 

@@ -74,6 +74,15 @@ pub(super) fn arrays(frame: &Frame) -> Vec<FieldArray<'_>> {
     ] {
         all.push(array(name, &["y", "x"], ArrayValues::F32(field)));
     }
+    for (name, field) in [
+        ("surface_rise_1_k", &frame.surface_rise_k[0]),
+        ("surface_rise_2_k", &frame.surface_rise_k[1]),
+        ("film_rise_k", &frame.film_rise_k),
+    ] {
+        if !field.is_empty() {
+            all.push(array(name, &["y", "x"], ArrayValues::F32(field)));
+        }
+    }
     all.push(array(
         "contact",
         &["y", "x"],

@@ -130,11 +130,14 @@ pub(super) enum Page {
 }
 
 /// The pages and the names of their files.
-const PAGES: [(&str, Page); 12] = [
+const PAGES: [(&str, Page); 15] = [
     ("pressure", Page::Map(Subject::Pressure)),
     ("film", Page::Map(Subject::Film)),
     ("interferogram", Page::Map(Subject::Interferogram)),
     ("traction", Page::Map(Subject::Traction)),
+    ("surface_rise_1", Page::Map(Subject::Surface1)),
+    ("surface_rise_2", Page::Map(Subject::Surface2)),
+    ("film_rise", Page::Map(Subject::OilRise)),
     ("roughness_1", Page::Map(Subject::Roughness1)),
     ("roughness_2", Page::Map(Subject::Roughness2)),
     ("effective_stress", Page::Map(Subject::EffectiveStress)),
@@ -179,7 +182,7 @@ impl Page {
         let is_seen = match subject {
             Subject::Roughness1 => rough(&frame.roughness_1_m),
             Subject::Roughness2 => rough(&frame.roughness_2_m),
-            subject => !subject.is_below() || frame.slice.is_some(),
+            subject => subject.field(frame).is_some(),
         };
         is_seen && (subject.is_below() || frame.kind == ContactKind::Point)
     }

@@ -14,6 +14,7 @@ use crate::plot::Margin;
 use crate::series::{by_itself, entity};
 use crate::shown::ShownViews;
 use asperity_engine::scene::ContactKind;
+use asperity_engine::sim::Dimension;
 use asperity_picture::Subject;
 
 /// All tabs of a run.
@@ -184,6 +185,9 @@ fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
             all.push(views.map(subject.title(), entity, &[], map));
         }
     }
+    for (entity, subject) in shown.rises {
+        all.push(views.map(subject.title(), entity, &[], map));
+    }
     all.extend(shear(views, shown));
     all.push(over_time(views, shown, true));
     all.push(over_time(views, shown, false));
@@ -331,7 +335,9 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
         };
         all.push(views.named(title, &[YIELDED], &["body 1", "body 2"]));
     }
-    for quantity in by_itself() {
+    let known = by_itself()
+        .filter(|quantity| !shown.rises.is_empty() || quantity.dimension != Dimension::Temperature);
+    for quantity in known {
         all.push(views.single(&quantity.label(kind), &entity(quantity, kind)));
     }
     Grid::new(all)

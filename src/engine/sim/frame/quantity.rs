@@ -68,6 +68,8 @@ pub enum Dimension {
     Load,
     /// m³, of a line m³ per metre.
     Volume,
+    /// K
+    Temperature,
 }
 
 /// How a passage, or the period that is averaged over, is summed up in one number. Steps in which it is not known are left out.
@@ -96,6 +98,7 @@ impl Dimension {
             Self::Load if kind == ContactKind::Line => ("N/m", 1.0),
             Self::Load => ("N", 1.0),
             Self::Volume => ("µm³", 1e18),
+            Self::Temperature => ("K", 1.0),
         };
         Unit { name, per_si }
     }
@@ -280,7 +283,7 @@ const fn is_same(one: &str, two: &str) -> bool {
 /// fields, reports and the explorer look it up here. A new one comes last and is shown `by_itself`.
 #[rustfmt::skip]
 pub const CATALOGUE: &[Quantity] = {
-    use Dimension::{Film, Height, Length, Load, Plain, Pressure, Share, Speed, Time, Volume};
+    use Dimension::{Film, Height, Length, Load, Plain, Pressure, Share, Speed, Temperature, Time, Volume};
     use Over::{Greatest, Least, Mean};
     use Source::{Frame as F, Life as L, Metrics as M};
     use Quantity as Q;
@@ -346,6 +349,7 @@ pub const CATALOGUE: &[Quantity] = {
         Q::new(["load_centre_x_m", "x of the load"], Length, "where along x the load acts: its moment resists rolling", M(|m| m.load_centre_x_m.into())),
         Q::new(["life_common", "life at the first load"], Plain, "life over that of the smooth, frictionless contact at S = 0 at the load and speed that the scene began with", L(|l| l.life_common().into())),
         Q::new(["life_smooth", "life of the smooth contact"], Plain, "life of the smooth, frictionless contact at S = 0 at the load and speed of now, but for the constant of the model; the ratio of two is that of their lives", L(|l| l.life_smooth.into())),
+        Q::new(["flash_temperature_k", "flash temperature"], Temperature, "greatest rise of a surface over the bulk's temperature", M(|m| m.flash_temperature_k.into())).by_itself(),
     ]
 };
 

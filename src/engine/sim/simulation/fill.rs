@@ -75,6 +75,12 @@ fn fill_fields(sim: View, frame: &mut Frame) {
     expand(sim, &sim.work.traction, along_x, &mut frame.traction_pa);
     expand(sim, one, scaling.film_m, &mut frame.roughness_1_m);
     expand(sim, two, scaling.film_m, &mut frame.roughness_2_m);
+    if let Some(heat) = &sim.work.heat {
+        for (from, to) in heat.rises().into_iter().zip(&mut frame.surface_rise_k) {
+            expand(sim, from, 1.0, to);
+        }
+        expand(sim, heat.film_rise(), 1.0, &mut frame.film_rise_k);
+    }
     let contact_film = sim.plan.scaling.m_from_h(sim.plan.law.contact_film) as f32;
     frame.contact.resize(frame.film_m.len(), 0);
     let fields = frame.film_m.iter().zip(&frame.pressure_pa);

@@ -5,7 +5,7 @@ use crate::physics::felt::felt_contacts;
 use crate::plan::TimeDependence;
 use crate::sim::counting::{contacts, felt_at_points};
 use crate::sim::fatigue_stage::Now;
-use crate::sim::heat_stage::{SolvedStep, Warmth};
+use crate::sim::heat_stage::{HeatStage, SolvedStep, Warmth};
 use crate::sim::measure::{Fields, Measured, measure};
 use crate::sim::roughness::Roughness;
 use crate::sim::sim_plan::SimPlan;
@@ -46,6 +46,7 @@ pub(super) fn watch(
         sample_life(plan, state, work, stats);
     }
     publish(plan, state, work, attempted, &measured);
+    state.metrics.flash_temperature_k = work.heat.as_ref().map(HeatStage::greatest_k);
 }
 
 /// Counts how warm the surfaces are at the end of the step, which has warmed them unless the contact stands still: then they

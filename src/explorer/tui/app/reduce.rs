@@ -74,8 +74,8 @@ impl App {
     /// Actions that change only what is shown; the others have been done, or mean nothing here.
     fn show(&mut self, action: Action) {
         match action {
-            Action::NextMap => self.show_map(self.view.map.shifted(1)),
-            Action::PreviousMap => self.show_map(self.view.map.shifted(-1)),
+            Action::NextMap => self.show_map(self.map_beside(1)),
+            Action::PreviousMap => self.show_map(self.map_beside(-1)),
             Action::Zoom => {
                 self.view.zoom = match self.view.zoom {
                     Zoom::Contact => Zoom::Domain,
@@ -130,6 +130,16 @@ impl App {
             | Action::NextBeat
             | Action::PreviousBeat => {}
         }
+    }
+
+    /// The next map that the run has something for.
+    fn map_beside(&self, by: i32) -> MapKind {
+        let mut map = self.view.map.shifted(by);
+        let is_cold = (self.frame()).is_none_or(|frame| frame.film_rise_k.is_empty());
+        if map == MapKind::Temperature && is_cold {
+            map = map.shifted(by);
+        }
+        map
     }
 
     fn show_map(&mut self, map: MapKind) {

@@ -14,7 +14,7 @@ use crate::tui::view::place::{columns, columns_from, fitted, put, put_right};
 use crate::tui::view::{knobs, overlay};
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::{
-    CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Rhythm, Stage, named,
+    CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Reading, Rhythm, Stage, named,
 };
 use asperity_session::sweep::Along;
 
@@ -137,7 +137,8 @@ fn quality(app: &App, frame: &Frame) -> StatusWords {
         shown("p max", const { named("p_max_pa") }, 3, Role::Pressure),
         shown("h min", const { named("h_min_m") }, 2, Role::Film),
     ];
-    let by_itself = CATALOGUE.iter().filter(|quantity| quantity.by_itself);
+    let by_itself = (CATALOGUE.iter())
+        .filter(|quantity| quantity.by_itself && quantity.read(frame) != Reading::Unknown);
     words.extend(by_itself.map(|quantity| shown(quantity.symbol, quantity, 2, Role::Text)));
     if let Some(errors) = metrics.errors {
         let share = sig(100.0 * errors.h_central, 2);

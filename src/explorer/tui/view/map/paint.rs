@@ -12,6 +12,7 @@ use crate::tui::theme::{Role, Theme};
 use crate::tui::units::tick;
 use crate::tui::view::chart::Symbol;
 use crate::tui::view::place::{columns, columns_from, put};
+use asperity_engine::math::number::KELVIN;
 use asperity_picture::interferogram::colour as fringe;
 use asperity_picture::{AboveRange, CONTACT, Look, Palette, Tint};
 
@@ -20,7 +21,12 @@ pub(super) fn look(app: &App) -> Look {
     let unit = match app.view.map {
         MapKind::Film | MapKind::Fringes | MapKind::FilmWaves => app.view.units.film(),
         MapKind::Roughness => app.view.units.height(),
-        _ => app.view.units.pressure(),
+        MapKind::Temperature => KELVIN,
+        MapKind::Pressure
+        | MapKind::Contact
+        | MapKind::Stress
+        | MapKind::PressureWaves
+        | MapKind::Profile => app.view.units.pressure(),
     };
     Look::of(app.view.map.subject(), &app.ranges()).in_unit(unit)
 }
