@@ -20,6 +20,7 @@ macro_rules! dispatched {
     };
 }
 
+mod ages;
 mod beside;
 mod cadence;
 mod centre_line;

@@ -93,6 +93,13 @@ impl PlotBox {
 
     /// Draws the frame, for good or until the next.
     pub(crate) fn log(&self, stream: &Stream, entity: &str, holds: Holds) {
+        let (lines, labels) = self.drawn();
+        stream.log_for(holds, &format!("{entity}/frame"), &lines);
+        labels.log(stream, &format!("{entity}/labels"), holds);
+    }
+
+    /// The frame, and what is written beside it.
+    pub(crate) fn drawn(&self) -> (LineStrips2D, Labels) {
         let (w, h) = (self.width(), self.height());
         let [left, right] = self.x;
         let [top, bottom] = self.y;
@@ -114,7 +121,6 @@ impl PlotBox {
             .with_colors([Color::from(GREY)])
             .with_radii([Radius::new_ui_points(0.75)])
             .with_draw_order(20.0);
-        stream.log_for(holds, &format!("{entity}/frame"), &lines);
 
         let left_colour = self.left_colour.unwrap_or(WHITE);
         let right_colour = self.right_colour.unwrap_or(WHITE);
@@ -139,7 +145,7 @@ impl PlotBox {
         for (share, title, colour) in &self.titles {
             labels.add([left + share * w, top - TITLES * h], title, *colour);
         }
-        labels.log(stream, &format!("{entity}/labels"), holds);
+        (lines, labels)
     }
 }
 
@@ -174,13 +180,17 @@ impl Labels {
 
     /// For good or until the next.
     pub(crate) fn log(&self, stream: &Stream, entity: &str, holds: Holds) {
-        let labels = Points2D::new(self.at.iter().copied())
+        stream.log_for(holds, entity, &self.drawn());
+    }
+
+    /// As the library has it.
+    pub(crate) fn drawn(&self) -> Points2D {
+        Points2D::new(self.at.iter().copied())
             .with_radii([Radius::new_scene_units(0.0)])
             .with_colors(self.colours.iter().copied())
             .with_labels(self.texts.iter().map(String::as_str))
             .with_show_labels(true)
-            .with_draw_order(30.0);
-        stream.log_for(holds, entity, &labels);
+            .with_draw_order(30.0)
     }
 }
 

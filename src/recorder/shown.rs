@@ -35,6 +35,8 @@ pub(crate) struct ShownViews {
     pub(crate) life: bool,
     /// Whether a body has a hardness at which it flows.
     pub(crate) yields: bool,
+    /// Loading cycles that the surfaces age over.
+    pub(crate) age_cycles: Option<f64>,
     /// Maps of temperature; none where the scene asks for no heat.
     pub(crate) rises: &'static [(&'static str, Subject)],
 }
@@ -63,6 +65,7 @@ impl ShownViews {
             damaged: life.map_or([false; 2], Life::maps),
             life: first.metrics.life.is_some(),
             yields: first.metrics.yielded_m3.is_some(),
+            age_cycles: scene.and_then(|scene| Some(scene.age?.cycles)),
             rises: rises(first),
         }
     }

@@ -14,7 +14,7 @@ use super::entities::SCALARS;
 use super::entities::series::LIFE_BAND;
 use super::entities::text::{LECTURE, NOW};
 use super::moment::Moment;
-use super::{properties, text};
+use super::{ages, properties, text};
 use asperity_engine::math::number::sig;
 use asperity_engine::observe::ObserveError;
 use asperity_engine::sim::Summary;
@@ -70,6 +70,7 @@ impl Epilogue for SummaryEpilogue<'_> {
     fn chunks(self) -> Result<Vec<Chunk>, String> {
         let values = properties::summary_values(self.summary);
         let mut chunks = vec![chunk(properties::result(), TimePoint::default(), &values)?];
+        chunks.extend(ages::chunks(&self.summary.ages)?);
         let ends = self.summary.life_relative_low;
         let ends = ends.zip(self.summary.life_relative_high);
         let ends = ends.filter(|(low, high)| *low > 0.0 && high.is_finite());
@@ -98,10 +99,10 @@ impl Epilogue for SummaryEpilogue<'_> {
 }
 
 /// A row as a chunk of its own.
-fn chunk(
+pub(crate) fn chunk(
     entity: impl Into<EntityPath>,
     at: TimePoint,
-    data: &impl AsComponents,
+    data: &dyn AsComponents,
 ) -> Result<Chunk, String> {
     let row = PendingRow::from_iter(at, data.as_serialized_batches());
     row.into_chunk(entity.into())

@@ -3,6 +3,7 @@
 use rerun::blueprint::{ContainerLike, Grid, Horizontal, TextLogView, Vertical};
 
 use super::views::Views;
+use crate::ages::{self, AGES};
 use crate::damage;
 use crate::entities::centre_line::CENTRE_LINE;
 use crate::entities::maps::INTERFEROGRAM;
@@ -34,6 +35,7 @@ pub(crate) fn all(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
         tabs.push(life(views));
     }
     tabs.extend(damage_of_both(views, shown));
+    tabs.extend(ageing(views, shown));
     tabs.push(scalars(views, shown));
     tabs.push(convergence(views));
     tabs.push(scene(views));
@@ -90,6 +92,15 @@ fn profile(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
     ]);
     let both = Horizontal::new([large, right.into()]).with_column_shares(vec![1.9, 1.0]);
     Some(both.with_name("Profile").into())
+}
+
+/// What surfaces come to over loading cycles.
+fn ageing(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+    shown.age_cycles?;
+    let all =
+        AGES.map(|curves| views.plot(curves.title, &[curves.entity], &ages::plot(), Margin::Plain));
+    let grid = Grid::new(all).with_grid_columns(3);
+    Some(grid.with_name("Ageing").into())
 }
 
 fn over_time(views: &mut Views, shown: &ShownViews, pressure: bool) -> ContainerLike {
