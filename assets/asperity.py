@@ -7,6 +7,7 @@
     run.scalars["life_relative"]        # every step; run.scalars["time_s"], run.scalars["p_max_pa"], ...
     run.fields["pressure_pa"].values    # [picture, y, x]; .step says which
     run.x_m, run.y_m, run.depths_m
+    run.ages["worn_nm"]                 # where surfaces age: loading cycles, and [age, body] of both bodies
 
 Fields have half precision (0.05 %), scalars all their digits. What is not known is NaN.
 """
@@ -23,9 +24,15 @@ FIELDS = [
     ("/maps/traction_on_body_1_MPa/image", "traction_on_body_1_pa", 1e6, False),
     ("/maps/roughness_body_1_um/image", "roughness_1_m", 1e-6, False),
     ("/maps/roughness_body_2_um/image", "roughness_2_m", 1e-6, False),
+    ("/maps/surface_1_rise_K/image", "surface_rise_1_k", 1.0, False),
+    ("/maps/surface_2_rise_K/image", "surface_rise_2_k", 1.0, False),
+    ("/maps/film_rise_K/image", "film_rise_k", 1.0, False),
     ("/slice_y0/effective_stress_GPa/image", "slice_effective_pa", 1e9, True),
     ("/slice_y0/tau_xz_GPa/image", "slice_tau_xz_pa", 1e9, True),
 ]
+
+# Curves over loading cycles, where surfaces age.
+AGES = "/ages_over_cycles/"
 
 
 def read(path):
@@ -37,7 +44,9 @@ def read(path):
         for name in batch.schema.names:
             component = name.split(":")[-1]
             if component in ("scalars", "buffer", "names"):
-                steps = batch.column("step").to_pylist() if "step" in batch.schema.names else [None] * batch.num_rows
+                timeline = "cycles" if chunk.entity_path.startswith(AGES) else "step"
+                known = timeline in batch.schema.names
+                steps = batch.column(timeline).to_pylist() if known else [None] * batch.num_rows
                 cells = batch.column(name)
                 rows.setdefault((chunk.entity_path, component), []).extend(
                     (step, cell.values) for step, cell in zip(steps, cells) if cell.is_valid
@@ -61,7 +70,13 @@ def read(path):
             # Pictures begin with their upper row, which is the last in y.
             values=stack if is_below else stack[:, ::-1, :],
         )
+    ages = {}
+    for (entity, component), points in rows.items():
+        if entity.startswith(AGES) and component == "scalars":
+            curves = np.array([cell.to_numpy(zero_copy_only=False) for _, cell in points])
+            ages[entity.removeprefix(AGES)] = (np.array([cycles for cycles, _ in points]), curves)
     return types.SimpleNamespace(
+        ages=ages,
         scalars={name: values[:, k] for k, name in enumerate(names)},
         fields=fields,
         x_m=x_min + dx * np.arange(nx),

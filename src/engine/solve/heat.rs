@@ -566,4 +566,184 @@ mod tests {
             assert!(apart < 1e-3);
         }
     }
+
+    /// Heat that is switched on over a body at rest, at its middle after κ t/a² = .01, .1 and 1 (`assets/reference`): a uniform
+    /// circle, a Hertz circle, a band; on two meshes and by three steps. Within a step heat rises in proportion: half a step late.
+    #[test]
+    fn heat_switched_on_at_rest_spreads_as_the_integrals_say() {
+        let disc = |x: f64, y: f64| edge(x.hypot(y));
+        let circle = |x: f64, y: f64| (1.0 - x * x - y * y).max(0.0).sqrt();
+        let band = |x: f64, _: f64| edge(x.abs());
+        type Shape<'a> = (&'a str, Symmetry, &'a dyn Fn(f64, f64) -> f64, [f64; 3]);
+        let shapes: [Shape; 3] = [
+            (
+                "disc",
+                Symmetry::MirrorY,
+                &disc,
+                [0.112838, 0.352882, 0.729097],
+            ),
+            (
+                "circle",
+                Symmetry::MirrorY,
+                &circle,
+                [0.112076, 0.328673, 0.603345],
+            ),
+            (
+                "band",
+                Symmetry::Line,
+                &band,
+                [0.112838, 0.355711, 0.919727],
+            ),
+        ];
+        let body = Thermal {
+            conductivity: 1.0,
+            diffusivity: 1.0,
+        };
+        for (name, symmetry, q, theirs) in shapes {
+            for (nodes, parts) in [(65, 40), (65, 80), (129, 160)] {
+                let y_half = if symmetry == Symmetry::Line { 0.0 } else { 2.0 };
+                let grid = Grid::new(nodes, -2.0, 2.0, y_half, symmetry);
+                let made: Vec<f64> = (0..grid.len())
+                    .map(|n| 2.0 * q(grid.x(n % grid.nx), grid.y(n / grid.nx)))
+                    .collect();
+                let resistance = vec![1e12; grid.len()];
+                let middle = (0..grid.ny)
+                    .find(|&j| grid.y(j).abs() < 1e-9)
+                    .expect("a row");
+                let found = [0.01, 0.1, 1.0].map(|fo| {
+                    let mut heat = Heat::new(&grid, 1.0, [body; 2]);
+                    let mut state = heat.cold();
+                    let step = HeatStep {
+                        dt_s: fo / f64::from(parts),
+                        speeds_m_s: [0.0; 2],
+                        made: &made,
+                        resistance: &resistance,
+                    };
+                    for _ in 0..parts {
+                        heat.advance(&mut state, &step);
+                    }
+                    heat.rise[0][middle * grid.nx + (grid.nx - 1) / 2]
+                });
+                println!("{name}, {nodes} nodes, {parts} steps: {found:.5?}, {theirs:?}");
+                for (found, theirs) in found.into_iter().zip(theirs) {
+                    assert!((found / theirs - 1.0).abs() < 0.01, "{found} {theirs}");
+                }
+            }
+        }
+    }
+
+    /// 1 inside, half at the edge, 0 beyond.
+    fn edge(r: f64) -> f64 {
+        if (r - 1.0).abs() < 1e-9 {
+            0.5
+        } else {
+            f64::from(u8::from(r < 1.0))
+        }
+    }
+
+    /// Surfaces that run against each other at equal temperatures, a uniform band (`assets/reference`): half of the heat enters
+    /// each, where Blok's formula is 10 % low; and both the same way.
+    #[test]
+    fn opposed_surfaces_share_a_band() {
+        let body = Thermal {
+            conductivity: 1.0,
+            diffusivity: 0.1,
+        };
+        for ([v1, v2], max, mean) in [
+            ([1.0, -1.0], 0.24413, 0.21364),
+            ([1.0, 1.0], 0.24232, 0.17251),
+        ] {
+            let off = [129, 257, 513].map(|nodes| {
+                let line = Grid::new(nodes, -2.0, 2.0, 0.0, Symmetry::Line);
+                let mut heat = Heat::new(&line, 1.0, [body; 2]);
+                let mut state = heat.cold();
+                let made: Vec<f64> = (0..line.nx).map(|i| edge(line.x(i).abs())).collect();
+                let apart = |q: &f64| if *q > 0.0 { 0.0 } else { 1e6 };
+                let resistance: Vec<f64> = made.iter().map(apart).collect();
+                let step = HeatStep {
+                    dt_s: 1.0 / 64.0,
+                    speeds_m_s: [v1, v2],
+                    made: &made,
+                    resistance: &resistance,
+                };
+                for _ in 0..1000 {
+                    heat.advance(&mut state, &step);
+                }
+                let rise = &heat.rise[0];
+                let greatest = rise.iter().copied().fold(0.0, f64::max);
+                let inside = line.integrate(|n| made[n] * rise[n]) / line.integrate(|n| made[n]);
+                let share = heat.into_body_1.iter().sum::<f64>() / made.iter().sum::<f64>();
+                println!("{v1} {v2}, {nodes} nodes: share {share:.4}, {greatest:.5} {inside:.5}, {max} {mean}");
+                assert!((share - 0.5).abs() < 1e-3);
+                (greatest / max - 1.0).abs().max((inside / mean - 1.0).abs())
+            });
+            assert!(off[1] < 0.02 && off[2] < 0.01, "{off:?}");
+        }
+    }
+
+    /// Heat that rides as a wave over a body, as roughness bound to the other body makes it: amplitude and lag
+    /// (closed form, `assets/reference`: T = q/(k_c m), m² = k² + i k (V − c)/κ) at (V − c) λ/(2πκ) = −1, 0 and 3, with 8, 16 and
+    /// 32 nodes a wave. What is even in it is taken off by a run of its own.
+    #[test]
+    fn a_wave_of_heat_has_its_amplitude_and_lag() {
+        use std::f64::consts::TAU;
+        for ([v, c], ratio, amplitude, lag) in [
+            ([1.0, 1.5], 1.0, 0.84090, -22.5),
+            ([1.0, 1.0], 0.0, 1.0, 0.0),
+            ([1.5, 0.5], 3.0, 0.56234, 35.78),
+        ] {
+            let off = [8.0, 16.0, 32.0].map(|per_wave| {
+                let line = Grid::new(257, -2.0, 2.0, 0.0, Symmetry::Line);
+                let wave = per_wave * line.dx;
+                let kappa = match ratio {
+                    0.0 => 0.05,
+                    ratio => f64::abs(v - c) * wave / (TAU * ratio),
+                };
+                let body = Thermal {
+                    conductivity: 1.0,
+                    diffusivity: kappa,
+                };
+                let run = |rides: f64| {
+                    let mut heat = Heat::new(&line, 1.0, [body; 2]);
+                    let mut state = heat.cold();
+                    let resistance = vec![1e12; line.len()];
+                    let (dt, steps) = (0.5 * line.dx, 1024);
+                    for step in 1..=steps {
+                        let t = dt * f64::from(step);
+                        let made: Vec<f64> = (0..line.nx)
+                            .map(|i| 2.0 * (1.0 + rides * (TAU * (line.x(i) - c * t) / wave).cos()))
+                            .collect();
+                        heat.advance(
+                            &mut state,
+                            &HeatStep {
+                                dt_s: dt,
+                                speeds_m_s: [v, c],
+                                made: &made,
+                                resistance: &resistance,
+                            },
+                        );
+                    }
+                    (heat.rise[0].clone(), dt * f64::from(steps))
+                };
+                let ((with, t), (without, _)) = (run(1.0), run(0.0));
+                // Over whole waves in the middle.
+                let n = 64;
+                let first = (line.nx - n) / 2;
+                let mut sums = [0.0; 2];
+                for i in first..first + n {
+                    let phase = TAU * (line.x(i) - c * t) / wave;
+                    let rise = (with[i] - without[i]) * 2.0 / n as f64;
+                    sums[0] += rise * phase.cos();
+                    sums[1] += rise * phase.sin();
+                }
+                let unit = wave / TAU;
+                let found = sums[0].hypot(sums[1]) / unit;
+                let behind = sums[1].atan2(sums[0]).to_degrees();
+                println!("{v} {c}, {per_wave} nodes a wave: {found:.5}, {amplitude}; {behind:.2} degrees, {lag}");
+                ((found / amplitude - 1.0).abs(), (behind - lag).abs())
+            });
+            assert!(off[2].0 < 0.01 && off[2].1 < 1.0, "{off:?}");
+            assert!(off[2].0 < off[0].0 + 1e-3);
+        }
+    }
 }
