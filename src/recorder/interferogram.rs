@@ -157,16 +157,26 @@ impl Interferogram {
             edges(first[1], size[1], rows),
         );
         let lights = LIGHTS_NM.map(|nm| format!("{nm}")).join(", ");
+        let lights = format!("{lights} nm, n = {REFRACTIVE_INDEX}");
+        // Beside a narrow picture there is no room above it.
+        let is_narrow = x[1] - x[0] < 0.4 * (y[1] - y[0]);
+        let (x_title, above) = if is_narrow {
+            (format!("x, mm; {lights}"), None)
+        } else {
+            (
+                "x, mm  (rolling direction →)".into(),
+                Some((0.55, lights, GREY)),
+            )
+        };
         PlotBox {
             x,
             y,
-            x_ticks: ticks_at(&ticks(x[0], x[1], 4), |x| x),
+            x_ticks: ticks_at(&ticks(x[0], x[1], if is_narrow { 2 } else { 4 }), |x| x),
             left_ticks: ticks_at(&ticks(-y[1], -y[0], 4), |y| -y),
-            x_title: "x, mm  (rolling direction →)".into(),
-            titles: vec![
-                (0.1, "y, mm".into(), WHITE),
-                (0.55, format!("{lights} nm, n = {REFRACTIVE_INDEX}"), GREY),
-            ],
+            x_title,
+            titles: std::iter::once((0.1, "y, mm".into(), WHITE))
+                .chain(above)
+                .collect(),
             ..PlotBox::default()
         }
     }
@@ -197,7 +207,7 @@ impl Interferogram {
     /// The colours against thickness, upwards as in the other maps' legends.
     fn log_legend(&self, stream: &Stream) {
         let plot = &self.plot;
-        let (w, h) = (plot.x[1] - plot.x[0], plot.y[1] - plot.y[0]);
+        let (w, h) = (plot.beside(), plot.y[1] - plot.y[0]);
         let (left, wide) = (plot.x[1] + 0.04 * w, 0.035 * w);
         let bar = PixelField {
             columns: 1,

@@ -26,7 +26,7 @@ impl Legend {
             entity,
             plot: plot.clone(),
         };
-        let (w, height) = (legend.width(), legend.height() / Self::ROWS as f64);
+        let (w, height) = (plot.beside(), legend.height() / Self::ROWS as f64);
         let wide = 0.035 * w;
         let pixels = PixelField {
             columns: 1,
@@ -40,10 +40,6 @@ impl Legend {
         legend
     }
 
-    fn width(&self) -> f64 {
-        self.plot.x[1] - self.plot.x[0]
-    }
-
     fn height(&self) -> f64 {
         self.plot.y[1] - self.plot.y[0]
     }
@@ -54,7 +50,7 @@ impl Legend {
 
     /// Logs the range: the bar's values and the numbers beside it.
     pub(crate) fn log(&self, stream: &Stream, look: &Look) {
-        let (w, h, upper) = (self.width(), self.height(), self.plot.y[0]);
+        let (w, h, upper) = (self.plot.beside(), self.height(), self.plot.y[0]);
         let [low, top] = look.range;
         let span = top - low;
         let ramp: [f32; Self::ROWS] =

@@ -181,10 +181,12 @@ pub(crate) fn pixels(g: Geometry) -> PixelField {
 pub(crate) fn plot_box(g: Geometry) -> PlotBox {
     let x = [g.x_min - 0.5 * g.dx, g.x_max() + 0.5 * g.dx];
     let y = [-g.y_max() - 0.5 * g.dy, -g.y_min + 0.5 * g.dy];
+    let is_narrow = x[1] - x[0] < 0.4 * (y[1] - y[0]);
     PlotBox {
         x,
         y,
-        x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
+        // As many as there is room for beneath a narrow map.
+        x_ticks: ticks_at(&ticks(x[0], x[1], if is_narrow { 2 } else { 5 }), |x| x),
         left_ticks: ticks_at(&ticks(-y[1], -y[0], 5), |y| -y),
         x_title: "x, mm  (rolling direction →)".into(),
         titles: vec![(0.1, "y, mm".into(), WHITE)],

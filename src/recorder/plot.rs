@@ -49,6 +49,11 @@ impl PlotBox {
         self.y[1] - self.y[0]
     }
 
+    /// What text beside the frame takes its room of: the width, in a narrow picture more, because text keeps its size.
+    pub(crate) fn beside(&self) -> f64 {
+        self.width().max(0.7 * self.height())
+    }
+
     /// What the view must show: the frame with its ticks and, on request, a legend at the right.
     pub(crate) fn bounds(&self, right: Margin) -> [[f64; 2]; 2] {
         let (w, h) = (self.width(), self.height());
@@ -58,7 +63,10 @@ impl PlotBox {
             Margin::Legend => 0.26,
         };
         [
-            [self.x[0] - 0.14 * w, self.x[1] + right * w],
+            [
+                self.x[0] - 0.14 * self.beside(),
+                self.x[1] + right * self.beside(),
+            ],
             // Text keeps its size, so that a flat plot needs a larger share of its height for it.
             [
                 self.y[0] - (TITLES + 0.025) * h,
@@ -122,6 +130,7 @@ impl PlotBox {
             .with_radii([Radius::new_ui_points(0.75)])
             .with_draw_order(20.0);
 
+        let beside = self.beside();
         let left_colour = self.left_colour.unwrap_or(WHITE);
         let right_colour = self.right_colour.unwrap_or(WHITE);
         let mut labels = Labels::default();
@@ -129,10 +138,18 @@ impl PlotBox {
             labels.add([*x, bottom + 0.02 * h], text, WHITE);
         }
         for (y, text) in &self.left_ticks {
-            labels.add([left - 0.07 * w, y - HALF_LABEL * h], text, left_colour);
+            labels.add(
+                [left - 0.07 * beside, y - HALF_LABEL * h],
+                text,
+                left_colour,
+            );
         }
         for (y, text) in &self.right_ticks {
-            labels.add([right + 0.07 * w, y - HALF_LABEL * h], text, right_colour);
+            labels.add(
+                [right + 0.07 * beside, y - HALF_LABEL * h],
+                text,
+                right_colour,
+            );
         }
         labels.add(
             [
@@ -143,7 +160,8 @@ impl PlotBox {
             WHITE,
         );
         for (share, title, colour) in &self.titles {
-            labels.add([left + share * w, top - TITLES * h], title, *colour);
+            let aside = 0.1 * (beside - w);
+            labels.add([left + share * w - aside, top - TITLES * h], title, *colour);
         }
         (lines, labels)
     }

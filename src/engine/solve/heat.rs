@@ -567,6 +567,8 @@ mod tests {
         }
     }
 
+    type Shape<'a> = (&'a str, Symmetry, &'a dyn Fn(f64, f64) -> f64, [f64; 3]);
+
     /// Heat that is switched on over a body at rest, at its middle after κ t/a² = .01, .1 and 1 (`assets/reference`): a uniform
     /// circle, a Hertz circle, a band; on two meshes and by three steps. Within a step heat rises in proportion: half a step late.
     #[test]
@@ -574,7 +576,6 @@ mod tests {
         let disc = |x: f64, y: f64| edge(x.hypot(y));
         let circle = |x: f64, y: f64| (1.0 - x * x - y * y).max(0.0).sqrt();
         let band = |x: f64, _: f64| edge(x.abs());
-        type Shape<'a> = (&'a str, Symmetry, &'a dyn Fn(f64, f64) -> f64, [f64; 3]);
         let shapes: [Shape; 3] = [
             (
                 "disc",
