@@ -125,6 +125,25 @@ fn a_smooth_contact_pits_when_its_calibration_point_says() {
     }
 }
 
+/// Where the smooth contact of the calibration point lives for ever no damage is absolute: there is no pitted area, not one of 0.
+#[test]
+fn without_a_life_of_the_smooth_contact_no_pits_are_told() {
+    let sets = [
+        "motion.slide_roll=0",
+        "grid.nodes=129",
+        "stress.depths=16",
+        "life.model=ioannides_harris",
+        "life.limit_pa=3e9",
+        "life.calibration_cycles=1e7",
+        "life.calibration_pressure_pa=1.5e9",
+        "age.cycles=2e6",
+    ];
+    let found = run(&scene(DRY_LINE, &sets.map(str::to_owned)));
+    assert_eq!((found.cycles, found.ages.len()), (Some(2e6), 2));
+    assert_eq!((found.pitted_area_1, found.pits_body_2), (None, None));
+    assert!(found.ages.iter().all(|age| age.pitted_area_1.is_none()));
+}
+
 /// Rolling on a crest that always meets the same place: it fails (σ_smooth/σ_max)^c times sooner than the smooth contact, with
 /// σ_max of the summary. The points that count cycles one by one have the same damage.
 #[test]

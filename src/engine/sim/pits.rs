@@ -50,7 +50,7 @@ pub(super) struct Pits {
     pitted: Vec<f64>,
     /// N_p of each column without wear; 0: not known.
     unworn: Vec<f64>,
-    /// Column and depth of the first pit, else of the greatest damage.
+    /// Column and depth of the greatest damage that the material now holds.
     worst: (usize, usize),
     /// Greatest D that the surface now holds.
     greatest: f64,
@@ -97,8 +97,11 @@ impl Pits {
     /// A place that nothing has crossed yet has the mean of the others.
     pub(super) fn take(&mut self, cycles: f64, count: impl FnOnce(&mut [f64]) -> bool) {
         self.now.iter_mut().for_each(|rate| *rate *= cycles);
-        count(&mut self.now);
+        let is_counted = count(&mut self.now);
         self.now.iter_mut().for_each(|rate| *rate /= cycles);
+        if !is_counted {
+            return;
+        }
         let all = self.depths.len();
         for k in 0..all {
             let known = self
@@ -119,6 +122,11 @@ impl Pits {
                 *rate = mean;
             }
         }
+    }
+
+    /// Whether a block has told any rate: none does where the smooth contact of the calibration point lives for ever.
+    pub(super) fn is_known(&self) -> bool {
+        self.now.iter().all(|rate| *rate >= 0.0)
     }
 
     /// The rates that were counted are those of new surfaces.
@@ -197,6 +205,8 @@ impl Pits {
             self.read(rows[0], zeta - self.worn[column]),
             self.read(rows[1], zeta - worn),
         ]
+        // What nobody knows counts for nothing.
+        .map(|rate| rate.max(0.0))
     }
 
     /// A rate by depth at `z`: its logarithm is linear in between.

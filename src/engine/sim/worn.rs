@@ -171,6 +171,11 @@ impl Worn {
         }
     }
 
+    /// What the material of body `body` has suffered; `None`: nobody knows.
+    pub(super) fn known_pits(&self, body: usize) -> Option<&Pits> {
+        self.pits[body].as_ref().filter(|pits| pits.is_known())
+    }
+
     /// Whether body `body` loses anything.
     pub(super) fn wears(&self, body: usize) -> bool {
         self.skins[body].is_some()

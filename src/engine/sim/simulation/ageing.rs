@@ -109,8 +109,8 @@ fn point(
         let rms = rms(&work.solver.grid, &heights[body]);
         plan.scaling.m_from_h(rms)
     });
-    let pits = state.worn.as_ref().map(|worn| &worn.pits);
-    let area = |body: usize| Some(pits?[body].as_ref()?.area());
+    let worn = state.worn.as_ref();
+    let area = |body: usize| Some(worn?.known_pits(body)?.area());
     AgePoint {
         cycles,
         wear_depth_1_m: depths_m[0].unwrap_or(0.0),

@@ -26,7 +26,7 @@ pub(super) fn summary(sim: View, stats: &Stats) -> Summary {
     let worn = sim.state.worn.as_ref();
     let travelled = sim.state.motion.travelled;
     let depths_m = worn.map_or([None; 2], |worn| depths_m(sim.plan, worn, travelled));
-    let pits = [0, 1].map(|body: usize| worn?.pits[body].as_ref());
+    let pits = [0, 1].map(|body: usize| worn?.known_pits(body));
     let known = Summary {
         steps: sim.state.step,
         a_m: hertz.a_m * size,
