@@ -1,6 +1,6 @@
 """Reads a recording of asperity into numpy arrays, in SI.
 
-    pip install rerun-sdk==0.36.3 numpy
+    pip install rerun-sdk==0.36.3 numpy pillow
 
     import asperity
     run = asperity.read("demonstration.rrd")
@@ -9,12 +9,15 @@
     run.x_m, run.y_m, run.depths_m
     run.ages["worn_nm"]                 # where surfaces age: loading cycles, and [age, body] of both bodies
 
-Fields have half precision (0.05 %), scalars all their digits. What is not known is NaN.
+Fields are those of the contact and what is near it: stresses and films to a 4000th of their colour range or better, what
+has a sign in half precision (0.05 %). Scalars have all their digits. What is not known is NaN.
 """
 
+import io
 import types
 
 import numpy as np
+import PIL.Image
 import rerun.experimental as rx
 
 # Entity, name, SI units of one of its own, whether its rows are depths.
@@ -43,7 +46,7 @@ def read(path):
         batch = chunk.to_record_batch()
         for name in batch.schema.names:
             component = name.split(":")[-1]
-            if component in ("scalars", "buffer", "names"):
+            if component in ("scalars", "buffer", "blob", "meter", "names"):
                 timeline = "cycles" if chunk.entity_path.startswith(AGES) else "step"
                 known = timeline in batch.schema.names
                 steps = batch.column(timeline).to_pylist() if known else [None] * batch.num_rows
@@ -59,12 +62,18 @@ def read(path):
     values = np.array([cell.to_numpy(zero_copy_only=False) for _, cell in table])
     fields = {}
     for entity, name, unit, is_below in FIELDS:
-        pictures = sorted(rows.get((entity, "buffer"), []), key=lambda row: row[0])
+        by_step = lambda component: sorted(rows.get((entity, component), []), key=lambda row: row[0])
+        # A list of one blob of bytes: halves, little-endian, or levels with how many of them are one unit.
+        pictures = by_step("buffer") or by_step("blob")
         if not pictures:
             continue
-        # A list of one blob of bytes: halves, little-endian.
-        blobs = [np.frombuffer(bytes(cell[0].as_py()), dtype="<f2").reshape(-1, nx) for _, cell in pictures]
-        stack = np.stack(blobs).astype(np.float64) * unit
+        blobs = [bytes(cell[0].as_py()) for _, cell in pictures]
+        if per_unit := [cell[0].as_py() for _, cell in by_step("meter")]:
+            levels = [np.asarray(PIL.Image.open(io.BytesIO(blob)), dtype=np.float64) for blob in blobs]
+            stack = np.stack([picture / levels_of_one for picture, levels_of_one in zip(levels, per_unit)])
+        else:
+            stack = np.stack([np.frombuffer(blob, dtype="<f2").reshape(-1, nx) for blob in blobs])
+        stack = stack.astype(np.float64) * unit
         fields[name] = types.SimpleNamespace(
             step=np.array([step for step, _ in pictures]),
             # Pictures begin with their upper row, which is the last in y.

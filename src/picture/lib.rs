@@ -21,11 +21,15 @@ pub mod interferogram;
 pub mod profile;
 pub mod ramp;
 mod scope;
+#[cfg(not(target_arch = "wasm32"))]
+mod window;
 
 use std::borrow::Cow;
 
 pub use ramp::Ramp;
 pub use scope::{Ranges, Scope, ToCome};
+#[cfg(not(target_arch = "wasm32"))]
+pub use window::Window;
 
 use asperity_engine::math::number::{GPA, KELVIN, MPA, UM, Unit, divisions, tick};
 use asperity_engine::scene::ContactKind;

@@ -109,6 +109,11 @@ impl Cadence {
         }
     }
 
+    /// Pictures of the scene's own run, as far as they are known before.
+    pub(crate) fn pictures(&self) -> f64 {
+        self.expected / self.fields.steps as f64
+    }
+
     /// Bytes that may still come in this octave; never none, so that there is something to divide by.
     fn left(&self) -> f64 {
         (self.limit - self.bytes - self.last).max(1e-3 * self.budget)

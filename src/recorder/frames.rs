@@ -1,7 +1,7 @@
 //! A recording's frames, read back: fields as their pictures hold them, scalars to the bit.
 //!
-//! Fields come in half precision (0.05 %, what is below 6e-8 of the unit coarser); written again they are the same
-//! bits. What is drawn in every second picture only (traction, roughness) is that of the last one; a step whose
+//! Fields come in half precision (0.05 %, what is below 6e-8 of the unit coarser) or in [levels](super::levels); written
+//! again they are the same bits. What is drawn in every second picture only (traction, roughness) is that of the last one; a step whose
 //! fields are all its own is [whole](RecordedFrames::whole).
 
 use std::collections::{BTreeSet, HashMap};
@@ -11,11 +11,13 @@ use std::sync::Arc;
 use rerun::external::arrow::ipc::reader::StreamReader;
 use rerun::log::Chunk;
 use rerun::{
-    ComponentIdentifier, DepthImage, Scalars, SegmentationImage, SeriesLines, TextDocument,
+    ComponentIdentifier, DepthImage, EncodedDepthImage, Scalars, SegmentationImage, SeriesLines,
+    TextDocument,
 };
 
 use super::classes;
 use super::entities::{DAMAGE, GRID, SCALARS, damage_block, maps, slice, text};
+use super::levels::values_of;
 use super::messages::{self, Ends, FileRead};
 use super::moment::STEP;
 use super::note::Note;
@@ -25,8 +27,17 @@ use asperity_engine::math::number::{GPA, KELVIN, MPA, UM, Unit};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{DamageBlock, Frame, StressSlice};
 
+/// What a picture holds.
+#[derive(Debug, Clone)]
+enum Image {
+    /// Values in half precision, or classes.
+    Plain(Arc<[u8]>),
+    /// In so many levels per unit.
+    Levels(Arc<[u8]>, f32),
+}
+
 /// Images of an entity by their steps.
-type SteppedImages = Vec<(i64, Arc<[u8]>)>;
+type SteppedImages = Vec<(i64, Image)>;
 
 /// What a recording holds of its run.
 pub struct RecordedFrames {
@@ -122,7 +133,7 @@ impl RecordedFrames {
         self.broken_off.as_deref()
     }
 
-    fn pictures_of(&self, entity: &str) -> &[(i64, Arc<[u8]>)] {
+    fn pictures_of(&self, entity: &str) -> &[(i64, Image)] {
         self.pictures.get(entity).map_or(&[], Vec::as_slice)
     }
 
@@ -250,20 +261,32 @@ impl RecordedFrames {
     }
 
     /// The picture that holds at a step.
-    fn bytes(&self, entity: &str, step: i64) -> Option<&[u8]> {
+    fn image(&self, entity: &str, step: i64) -> Option<&Image> {
         let pictures = self.pictures_of(entity);
         let after = pictures.partition_point(|(own, _)| *own <= step);
-        pictures[..after].last().map(|(_, bytes)| &**bytes)
+        pictures[..after].last().map(|(_, image)| image)
+    }
+
+    /// Its bytes, of a picture of classes.
+    fn bytes(&self, entity: &str, step: i64) -> Option<&[u8]> {
+        match self.image(entity, step)? {
+            Image::Plain(bytes) => Some(bytes),
+            Image::Levels(..) => None,
+        }
     }
 
     /// Its values in SI, as many as are asked for.
     fn values(&self, entity: &str, step: i64, unit: Unit, count: usize) -> Option<Vec<f32>> {
-        let bytes = self.bytes(entity, step)?;
-        let halves = bytes
-            .chunks_exact(2)
-            .map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
-        let values = halves.map(|half| (f64::from(value_of(half)) / unit.per_si) as f32);
-        (bytes.len() == 2 * count).then(|| values.collect())
+        let values = match self.image(entity, step)? {
+            Image::Levels(png, per_unit) => values_of(png, *per_unit, count)?,
+            Image::Plain(bytes) => {
+                let halves = bytes.chunks_exact(2);
+                let halves = halves.map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
+                halves.map(value_of).collect()
+            }
+        };
+        let si = |value: &f32| (f64::from(*value) / unit.per_si) as f32;
+        (values.len() == count).then(|| values.iter().map(si).collect())
     }
 }
 
@@ -382,6 +405,7 @@ impl FoundRows {
                 steps,
                 DepthImage::descriptor_buffer().component,
             );
+            self.take_levels(chunk, image, steps);
         } else if entity == maps::CONTACT {
             self.take_pictures(
                 chunk,
@@ -418,22 +442,7 @@ impl FoundRows {
         steps: &[i64],
         buffer: ComponentIdentifier,
     ) {
-        let known = [
-            maps::PRESSURE,
-            maps::FILM,
-            maps::CONTACT,
-            maps::TRACTION,
-            maps::ROUGHNESS_1,
-            maps::ROUGHNESS_2,
-            maps::SURFACE_1,
-            maps::SURFACE_2,
-            maps::OIL_RISE,
-            slice::EFFECTIVE,
-            slice::TAU_XZ,
-            DAMAGE[0],
-            DAMAGE[1],
-        ];
-        if !known.contains(&entity) {
+        if !READ.contains(&entity) {
             return;
         }
         if chunk.is_static() {
@@ -442,14 +451,54 @@ impl FoundRows {
         }
         let rows = chunk.iter_slices::<&[u8]>(buffer);
         let pictures = steps.iter().copied().zip(rows);
-        let pictures =
-            pictures.filter_map(|(step, row)| Some((step, Arc::from(row.first()?.as_slice()))));
-        self.pictures
-            .entry(entity.to_owned())
-            .or_default()
-            .extend(pictures);
+        let pictures = pictures.filter_map(|(step, row)| {
+            let bytes = row.first()?.as_slice();
+            Some((step, Image::Plain(Arc::from(bytes))))
+        });
+        self.add(entity, pictures);
+    }
+
+    /// Pictures in levels, which come with how many of them are one unit.
+    fn take_levels(&mut self, chunk: &Chunk, entity: &str, steps: &[i64]) {
+        if !READ.contains(&entity) || chunk.is_static() {
+            return;
+        }
+        let [blob, meter] = [
+            EncodedDepthImage::descriptor_blob().component,
+            EncodedDepthImage::descriptor_meter().component,
+        ];
+        let blobs = chunk.iter_slices::<&[u8]>(blob);
+        let rows = blobs.zip(chunk.iter_slices::<f32>(meter));
+        let pictures = steps.iter().copied().zip(rows);
+        let pictures = pictures.filter_map(|(step, (blob, per_unit))| {
+            let (bytes, per_unit) = (blob.first()?.as_slice(), *per_unit.first()?);
+            Some((step, Image::Levels(Arc::from(bytes), per_unit)))
+        });
+        self.add(entity, pictures);
+    }
+
+    fn add(&mut self, entity: &str, pictures: impl Iterator<Item = (i64, Image)>) {
+        let all = self.pictures.entry(entity.to_owned()).or_default();
+        all.extend(pictures);
     }
 }
+
+/// Entities whose pictures make a frame.
+const READ: [&str; 13] = [
+    maps::PRESSURE,
+    maps::FILM,
+    maps::CONTACT,
+    maps::TRACTION,
+    maps::ROUGHNESS_1,
+    maps::ROUGHNESS_2,
+    maps::SURFACE_1,
+    maps::SURFACE_2,
+    maps::OIL_RISE,
+    slice::EFFECTIVE,
+    slice::TAU_XZ,
+    DAMAGE[0],
+    DAMAGE[1],
+];
 
 /// The chunk that a message holds.
 fn chunk_of(data: &[u8]) -> Option<Chunk> {

@@ -12,7 +12,7 @@ use rerun::{ChannelDatatype, SegmentationImage};
 use super::classes;
 use super::colour::{GREEN, WHITE};
 use super::geometry::Geometry;
-use super::picture::{PixelField, log_styled};
+use super::picture::{Field, PixelField, log_styled};
 use super::plot::{PlotBox, Strips, line, ticks_at};
 use super::raster::{Height, RasterEntity};
 use super::stream::{Holds, Stream};
@@ -191,7 +191,8 @@ impl KymographEntity {
         if !self.touches.is_empty() {
             self.log_over(stream, nodes);
         }
-        self.raster.log_upper(stream, &self.values[..nodes]);
+        let upper = Field::TopDown(&self.values[..nodes]);
+        self.raster.log(stream, upper);
     }
 
     /// Contact and what is above the range, in the colours that they have in the map.

@@ -21,8 +21,16 @@ use super::shown::ShownViews;
 use super::stream::{APPLICATION, Stream};
 use asperity_engine::observe::ObserveError;
 
-/// Time that a passage of 4 a takes when it is played, s.
-const PASSAGE_SHOWN_S: f64 = 10.0;
+/// Pictures a second when a run is played, and the shortest and longest time that its scene's own end is away, s.
+const PICTURES_PER_S: f64 = 12.5;
+const SHOWN_S: [f64; 2] = [10.0, 20.0];
+
+/// Simulated time over the time in which it is played, of a run of so long with so many pictures.
+pub(crate) fn playback_speed(run_s: f64, pictures: f64) -> Option<f64> {
+    let [shortest, longest] = SHOWN_S;
+    let shown_s = (pictures / PICTURES_PER_S).clamp(shortest, longest);
+    (run_s > 0.0).then(|| run_s / shown_s)
+}
 
 /// Sends the layout to a recording.
 pub(crate) fn send(stream: &Stream, shown: &ShownViews) -> Result<(), ObserveError> {
@@ -44,10 +52,10 @@ pub(crate) fn send_tabs(
         .with_loop_mode(loop_mode(shown.live))
         .with_fps(15.0);
     // Milliseconds, so slowly that a passage can be followed; where nothing moves there are only steps.
-    let time = match shown.passage_s {
-        Some(passage_s) => time
+    let time = match shown.playback_speed {
+        Some(speed) => time
             .with_timeline(SIMULATED_TIME)
-            .with_playback_speed(passage_s / PASSAGE_SHOWN_S),
+            .with_playback_speed(speed),
         None => time.with_timeline(STEP),
     };
     let blueprint = Blueprint::new(Tabs::new(tabs))

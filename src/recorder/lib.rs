@@ -38,6 +38,7 @@ mod interferogram;
 mod kymograph;
 mod layout;
 mod legend;
+mod levels;
 mod live;
 mod maps;
 mod mesh;

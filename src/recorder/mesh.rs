@@ -4,9 +4,9 @@ use super::colour::hillshade;
 use super::geometry::Geometry;
 
 /// Most columns and rows of the film's sheet: what a screen shows, few enough to keep files small.
-pub(crate) const FINE: [usize; 2] = [96, 24];
+pub(crate) const FINE: [usize; 2] = [80, 20];
 /// Of the bodies' sheets, which only give the picture its frame.
-pub(crate) const COARSE: [usize; 2] = [48, 24];
+pub(crate) const COARSE: [usize; 2] = [40, 16];
 
 /// Every so-many-th node of a window of the grid: from the plane y = 0 backwards (the front half is
 /// cut away), around the contact in x.

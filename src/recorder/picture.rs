@@ -3,7 +3,7 @@
 use rerun::components::{Colormap, ImageBuffer, MagnificationFilter};
 use rerun::datatypes::Blob;
 use rerun::external::arrow::buffer::Buffer;
-use rerun::{AsComponents, DepthImage, Transform3D};
+use rerun::{AsComponents, DepthImage, EncodedDepthImage, Transform3D};
 
 use super::stream::Stream;
 use asperity_engine::math::number::nice_ceiling;
@@ -52,7 +52,7 @@ pub(crate) struct Beyond {
 }
 
 impl Beyond {
-    fn add(&mut self, (above, maximum): (u32, u32)) {
+    pub(crate) fn add(&mut self, (above, maximum): (u32, u32)) {
         self.above += u64::from(above);
         // What is no number (which a field never holds by its contract) is as great as can be.
         let maximum = f32::from_bits(maximum);
@@ -160,6 +160,14 @@ pub(crate) fn log_styled(
 pub(crate) fn styled(look: &Look) -> DepthImage {
     DepthImage::update_fields()
         .with_meter(1.0)
+        .with_colormap(colormap(look.ramp()))
+        .with_magnification_filter(MagnificationFilter::Linear)
+}
+
+/// The same of a picture in [levels](super::levels).
+pub(crate) fn styled_levels(look: &Look) -> EncodedDepthImage {
+    EncodedDepthImage::update_fields()
+        .with_media_type("image/png")
         .with_colormap(colormap(look.ramp()))
         .with_magnification_filter(MagnificationFilter::Linear)
 }

@@ -1,17 +1,20 @@
-//! Images with a colour legend: a field on a rectangle, in half precision, with a colour range that holds until a knob is
-//! turned beyond what it was made for.
+//! Images with a colour legend: a field on a rectangle, with a colour range that holds until a knob is turned beyond what
+//! it was made for.
 //!
-//! Values are stored in the unit of the entity's name as 16-bit floating-point numbers: eleven significant bits
-//! (0.05 %) of everything between 6e-5 and 65 504, so that a film of 5 nm and the bath of 50 µm beside it are in one
-//! picture and nothing depends on a range that was guessed. A value beyond is stored as the largest that there is; *Now* tells how large it is.
+//! Values are stored in the unit of the entity's name. What has a sign stands as 16-bit floating-point numbers: eleven
+//! significant bits (0.05 %) of everything between 6e-5 and 65 504; a value beyond is stored as the largest that there is.
+//! What has none stands in [levels](super::levels), in a fourth of the room. *Now* tells how large the largest is.
 
 use std::cell::Cell;
 
 use rerun::components::ImageFormat;
-use rerun::{ChannelDatatype, DepthImage};
+use rerun::{ChannelDatatype, DepthImage, EncodedDepthImage};
 
 use super::legend::Legend;
-use super::picture::{Beyond, Field, PixelField, log_styled, range, stored, styled};
+use super::levels::levelled;
+use super::picture::{
+    Beyond, Field, PixelField, log_styled, range, stored, styled, styled_levels, top,
+};
 use super::plot::PlotBox;
 use super::stream::{Holds, Stream};
 use asperity_picture::Look;
@@ -48,14 +51,15 @@ impl RasterEntity {
         height: Height,
     ) -> Self {
         let place = format!("{entity}/image");
-        let format = ImageFormat::depth(pixels.resolution(), ChannelDatatype::F16);
-        match height {
-            Height::Fixed => {
-                log_styled(stream, &place, &styled(&look).with_format(format), &pixels);
-                plot.log(stream, &format!("{entity}/axes"), Holds::Always);
-            }
-            // What is logged once holds for ever, so the size of a growing picture and its axes may not be.
-            Height::Growing => log_styled(stream, &place, &styled(&look), &pixels),
+        if is_signed(&look) {
+            let format = ImageFormat::depth(pixels.resolution(), ChannelDatatype::F16);
+            log_styled(stream, &place, &styled(&look).with_format(format), &pixels);
+        } else {
+            log_styled(stream, &place, &styled_levels(&look), &pixels);
+        }
+        // What is logged once holds for ever, so the axes of a growing picture may not be.
+        if height == Height::Fixed {
+            plot.log(stream, &format!("{entity}/axes"), Holds::Always);
         }
         let legend = Legend::new(stream, format!("{entity}/legend"), &look, plot);
         let raster = Self {
@@ -77,28 +81,34 @@ impl RasterEntity {
     }
 
     fn log_range(&self, stream: &Stream) {
-        stream.log_for(Holds::FromNow, &self.entity, &range(&self.look));
+        // Levels have theirs with each picture.
+        if is_signed(&self.look) {
+            stream.log_for(Holds::FromNow, &self.entity, &range(&self.look));
+        }
         self.legend.log(stream, &self.look);
     }
 
-    /// One frame's values in SI.
+    /// One frame's values in SI: of a growing picture as many rows as there are values for.
     pub(crate) fn log(&self, stream: &Stream, field: Field) {
-        let (values, beyond) = stored(&self.look, field);
-        let image = DepthImage::update_fields().with_buffer(values);
-        stream.log(&self.entity, &image);
-        self.last.set(beyond);
-    }
-
-    /// The upper rows of a growing picture: as many as there are values for.
-    pub(crate) fn log_upper(&self, stream: &Stream, values_si: &[f32]) {
-        let rows = values_si.len() / self.columns.max(1);
-        let resolution = [self.columns as u32, rows as u32];
-        // Its samples are those of the maps, where they are counted.
-        let (values, _) = stored(&self.look, Field::TopDown(values_si));
-        let data = DepthImage::update_fields()
-            .with_buffer(values)
-            .with_format(ImageFormat::depth(resolution, ChannelDatatype::F16));
-        stream.log(&self.entity, &data);
+        if is_signed(&self.look) {
+            let (values, beyond) = stored(&self.look, field);
+            let image = DepthImage::update_fields().with_buffer(values);
+            stream.log(&self.entity, &image);
+            self.last.set(beyond);
+            return;
+        }
+        match levelled(&self.look, field, self.columns) {
+            Ok(levelled) => {
+                let top = top(&self.look) * f64::from(levelled.per_unit);
+                let image = EncodedDepthImage::update_fields()
+                    .with_blob(levelled.png)
+                    .with_meter(levelled.per_unit)
+                    .with_depth_range([0.0, top]);
+                stream.log(&self.entity, &image);
+                self.last.set(levelled.beyond);
+            }
+            Err(reason) => stream.note_refused(Err(reason)),
+        }
     }
 
     /// What of the last picture lay beyond the ranges.
@@ -110,4 +120,9 @@ impl RasterEntity {
     pub(crate) fn look(&self) -> &Look {
         &self.look
     }
+}
+
+/// Whether its values may be negative.
+fn is_signed(look: &Look) -> bool {
+    look.range[0] < 0.0
 }

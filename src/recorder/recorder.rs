@@ -20,6 +20,7 @@ use asperity_engine::observe::{
 };
 use asperity_engine::scene::{Record, Scene};
 use asperity_engine::sim::{Frame, Stage};
+use asperity_picture::{Scope, Window};
 
 /// Steps that did not converge that are listed one by one.
 const MOST_UNCONVERGED: u64 = 200;
@@ -34,6 +35,8 @@ pub struct Recorder {
     stream: Stream,
     record: Record,
     scene: Option<Arc<Scene>>,
+    /// What of its frames is recorded.
+    window: Option<Window>,
     views: Option<RunViews>,
     caption: String,
     /// What happened before the first frame: it is logged with it, so that the recording begins with a picture.
@@ -93,6 +96,7 @@ impl Recorder {
             stream,
             record: record.clone(),
             scene: None,
+            window: None,
             views: None,
             caption: String::new(),
             early: Vec::new(),
@@ -111,6 +115,12 @@ impl Recorder {
     fn log_frame(&mut self, frame: &Frame) -> Result<(), ObserveError> {
         let now = Moment::new(frame.step, frame.time_s, frame.passages);
         self.stream.set_time(now);
+        let scene = self.scene.as_deref();
+        let around = || Window::around(frame, Scope::of(scene, frame).to_come.size);
+        let window = self.window.get_or_insert_with(around);
+        // A frame of another grid is refused below.
+        let cut = window.is_of(frame).then(|| window.cut(frame));
+        let frame = cut.as_ref().unwrap_or(frame);
         if self.views.is_none() {
             self.log_early();
             let series = Series::new(&self.stream, frame.kind);

@@ -6,6 +6,7 @@ use super::damage::Damage;
 use super::entities::{kymograph, maps as map_entities};
 use super::geometry::Geometry;
 use super::kymograph::{ExpectedRun, KymographEntity};
+use super::layout;
 use super::maps::{self, Maps};
 use super::picture::top;
 use super::profile::ProfileEntity;
@@ -106,11 +107,16 @@ impl RunViews {
         all.push(boxed(Damage::default()));
         let spent = [stream.expected_bytes(), TEXT * last as f64];
         let steps = expected_steps(scene, first);
+        let cadence = Cadence::new(record, steps, frame_bytes(geometry), spent);
+        let run_s = steps * step_s(scene, first);
+        let moves = first.metrics.entrainment_m_s != 0.0;
+        let speed = || layout::playback_speed(run_s, cadence.pictures());
+        shown.playback_speed = moves.then(speed).flatten();
         let views = Self {
             geometry,
             scope,
             is_common,
-            cadence: Cadence::new(record, steps, frame_bytes(geometry), spent),
+            cadence,
             series,
             all,
             exaggeration,
@@ -306,10 +312,11 @@ fn expected_steps(scene: Option<&Scene>, first: &Frame) -> f64 {
     }
 }
 
-/// Raw bytes of one frame's fields, roughly: what the first cadence is decided from.
+/// Bytes of one frame's fields before they are compressed, roughly: what the first cadence is decided from. (75, 154 and
+/// 48 kB of a frame reach the disk at 129², 257² and on a line of 257 nodes.)
 pub(crate) fn frame_bytes(g: Geometry) -> u64 {
     let nodes = (g.nx * g.ny) as u64;
-    // Two maps of two bytes and one of one, the slice; of every second frame three maps more, the
-    // interferogram and another slice; the sheets of the 3-D view.
-    (5 + 2 + (6 + 4 + 2) / 2) * nodes + 100_000
+    // Two maps in levels, which are compressed already, and one of a byte; of every second frame three maps of two bytes,
+    // the interferogram and another slice; the sheets of the 3-D view.
+    (3 + 1 + (6 + 2) / 2) * nodes + 100_000
 }

@@ -11,8 +11,8 @@ use asperity_picture::{Scope, Subject};
 pub(crate) struct ShownViews {
     /// Whether the run goes on while it is shown.
     pub(crate) live: bool,
-    /// Time of a passage of 4 a, s; `None` where nothing moves.
-    pub(crate) passage_s: Option<f64>,
+    /// Simulated time over the time in which it is played; `None` where nothing moves.
+    pub(crate) playback_speed: Option<f64>,
     pub(crate) kind: ContactKind,
     pub(crate) map: PlotBox,
     pub(crate) interferogram: PlotBox,
@@ -44,11 +44,10 @@ pub(crate) struct ShownViews {
 impl ShownViews {
     /// Of a run with that first frame, before any of its other pictures is set up.
     pub(crate) fn new(scene: Option<&Scene>, first: &Frame, scope: &Scope, map: PlotBox) -> Self {
-        let speed = first.metrics.entrainment_m_s.abs();
         let life = scene.and_then(|scene| scene.life.as_ref());
         Self {
             live: false,
-            passage_s: (speed > 0.0).then(|| 4.0 * first.a_m / speed),
+            playback_speed: None,
             kind: first.kind,
             map,
             interferogram: PlotBox::default(),

@@ -204,7 +204,7 @@ impl Stream {
     }
 
     /// Keeps why something could not be logged, for [`Stream::check`].
-    fn note_refused(&self, logged: Result<(), String>) {
+    pub(crate) fn note_refused(&self, logged: Result<(), String>) {
         if let Err(reason) = logged {
             self.refused.borrow_mut().get_or_insert(reason);
         }

@@ -101,6 +101,7 @@ mod from_a_recording {
     use asperity_engine::observe::{Observer, Overwrite, RunContext};
     use asperity_engine::scene::{Record, Scene};
     use asperity_engine::sim::Frame;
+    use asperity_picture::Window;
     use asperity_picture::export::{Export, Format, PrintSize};
     use asperity_recorder::{RecordedFrames, Recorder};
     use asperity_session::Table;
@@ -176,13 +177,14 @@ mod from_a_recording {
         let folder = tempfile::tempdir().unwrap();
         let (frames, read) = both(folder.path(), 8);
         let whole = read.whole();
+        let window = Window::around(&frames[0], 1.0);
         let back: Vec<Frame> = whole
             .iter()
             .map(|&step| read.frame(step).unwrap())
             .collect();
         let own: Vec<Frame> = whole
             .iter()
-            .map(|&step| Frame::clone(&frames[step as usize - 1]))
+            .map(|&step| window.cut(&frames[step as usize - 1]))
             .collect();
         let [one, two] = ["run", "recording"].map(|name| folder.path().join(name));
         // Both painters see the first frame first: it sets the ranges.

@@ -47,9 +47,9 @@ const LINE_DEPTH_NODE_S: f64 = 5.0e-8;
 /// Tables and slice of a line's stress, bytes a node and depth.
 const LINE_DEPTH_BYTES: f64 = 56.0;
 /// Bytes of the pictures of one recorded frame as they reach the disk: those that grow with the nodes and the
-/// sheets of the 3-D view (69, 122 and 344 kB were measured at 65², 129² and 257²). The recorder keeps to what it
+/// sheets of the 3-D view (59, 75 and 154 kB were measured at 65², 129² and 257²). The recorder keeps to what it
 /// measures.
-const FIELD_BYTES_PER_NODE: f64 = 4.5;
+const FIELD_BYTES_PER_NODE: f64 = 1.7;
 const SHEET_BYTES: f64 = 5e4;
 
 /// Waves of a padded domain over nodes, of a point and of a line; bytes that both bodies' heat takes of each; seconds of a step of

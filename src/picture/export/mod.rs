@@ -185,16 +185,23 @@ impl Export {
             self.move_in()?;
         }
         let print = SheetKind::Printed(self.print);
+        let drawn = |format: &Format| !matches!(format, Format::Npz | Format::Vti | Format::Csv);
+        // Arrays hold all of a frame.
+        let shown = if self.formats.iter().any(drawn) {
+            &self.pictures.shown(frame)
+        } else {
+            frame
+        };
         if self.formats.contains(&Format::Gif) {
-            self.follow(frame)?;
+            self.follow(shown)?;
         }
         for format in self.formats.clone().into_iter().filter(|_| as_still) {
             self.bytes += match format {
                 Format::Npz => self.write(frame, NPZ, &|out| write_npz(out, frame))?,
                 Format::Vti => self.write_vtk(frame)?,
-                Format::Png => self.draw(frame, format, SheetKind::Still, Drawing::png)?,
-                Format::Svg => self.draw(frame, format, print, Drawing::svg)?,
-                Format::Pdf => self.draw(frame, format, print, Drawing::pdf)?,
+                Format::Png => self.draw(shown, format, SheetKind::Still, Drawing::png)?,
+                Format::Svg => self.draw(shown, format, print, Drawing::svg)?,
+                Format::Pdf => self.draw(shown, format, print, Drawing::pdf)?,
                 Format::Gif | Format::Csv => 0,
             };
         }

@@ -9,7 +9,7 @@ use super::map::map;
 use super::profile::ProfilePage;
 use super::sheet::{Heading, PrintSize, Sheet};
 use crate::draw::Drawing;
-use crate::{Look, NodeAxis, Picture, Ramp, Ranges, Scope, Subject};
+use crate::{Look, NodeAxis, Picture, Ramp, Ranges, Scope, Subject, Window};
 use asperity_engine::math::number::{GPA, Unit, plain, seconds};
 use asperity_engine::scene::{ContactKind, Scene};
 use asperity_engine::sim::{DamageBlock, Frame};
@@ -19,6 +19,7 @@ use asperity_engine::sim::{DamageBlock, Frame};
 pub(super) struct Pictures {
     scene: Option<Scene>,
     scope: Option<Scope>,
+    window: Option<Window>,
 }
 
 impl Pictures {
@@ -27,6 +28,7 @@ impl Pictures {
         Self {
             scene: Some(scene.clone()),
             scope: None,
+            window: None,
         }
     }
 
@@ -58,12 +60,24 @@ impl Pictures {
         scope.ranges
     }
 
+    /// What of a frame pictures show.
+    pub(super) fn shown(&mut self, frame: &Frame) -> Frame {
+        let scene = self.scene.as_ref();
+        let around = || Window::around(frame, Scope::of(scene, frame).to_come.size);
+        let window = self.window.get_or_insert_with(around);
+        if window.is_of(frame) {
+            window.cut(frame)
+        } else {
+            frame.clone()
+        }
+    }
+
     /// The profile in the ranges that were asked for last.
     fn profile<'a>(&self, frame: &'a Frame) -> Option<ProfilePage<'a>> {
         ProfilePage::of(frame, self.scene.as_ref()?, self.scope.as_ref()?)
     }
 
-    /// Draws one picture.
+    /// Draws one picture of what is [shown](Self::shown).
     ///
     /// # Errors
     /// In words, where the frame does not hold it.
