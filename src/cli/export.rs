@@ -8,6 +8,7 @@ use std::{
 
 use asperity_engine::math::number::{bytes, counted, seconds};
 use asperity_engine::observe::{Observer as _, Overwrite, RunContext};
+use asperity_engine::sim::Frame;
 use asperity_picture::export::{Export, Format, PrintSize};
 use asperity_recorder::RecordedFrames;
 use asperity_session::Table;
@@ -81,21 +82,69 @@ fn pictures(
         font_pt: args.font_pt,
     };
     let overwrite = Overwrite::from_force(args.force);
-    let mut export = Export::create(folder, overwrite, &args.formats)?.of(&args.show, print);
+    let others: Result<Vec<Other>, Failure> =
+        args.beside.iter().map(|path| Other::read(path)).collect();
+    let others = others?;
+    let export = Export::create(folder, overwrite, &args.formats)?.of(&args.show, print);
+    let scenes = others.iter().map(|other| &*other.frames.scene);
+    let mut export = export.beside(scenes);
     export.begin(context)?;
     let (whole, shown) = (frames.whole(), frames.shown());
+    // A still has all that the run's own export has; the shear and the roughness are in every second picture.
+    let one = match args.step {
+        Some(step) => whole.iter().min_by_key(|own| own.abs_diff(step)),
+        None => whole.last(),
+    };
     let mut next = 0;
     for step in shown {
-        // A still has all that the run's own export has; the shear and the roughness are in every second picture.
-        let as_still = step >= next && whole.binary_search(&step).is_ok();
-        if as_still {
-            next = step + args.every;
+        let as_still = match args.every {
+            None => Some(&step) == one,
+            Some(_) => step >= next && whole.binary_search(&step).is_ok(),
+        };
+        if let Some(every) = args.every.filter(|_| as_still) {
+            next = step + every;
         }
-        if let Some(frame) = frames.frame(step) {
-            export.take(&frame, as_still)?;
-        }
+        let Some(frame) = frames.frame(step) else {
+            continue;
+        };
+        let others = others.iter().map(|other| other.nearest(frame.time_s));
+        let Some(others) = others.collect::<Option<Vec<_>>>() else {
+            continue;
+        };
+        let all: Vec<&Frame> = std::iter::once(&frame).chain(&others).collect();
+        export.take_all(&all, as_still)?;
     }
     Ok(export.finish()?.bytes)
+}
+
+/// A recording that is drawn beside another.
+struct Other {
+    frames: RecordedFrames,
+    /// Steps with pictures and their times, s.
+    times_s: Vec<(u64, f64)>,
+}
+
+impl Other {
+    fn read(path: &Path) -> Result<Self, Failure> {
+        let read = RecordedFrames::read(path);
+        let frames = read.map_err(|error| Failure::input(miette::miette!("{error}")))?;
+        tell_where_it_breaks_off(path, &frames);
+        let shown = frames.shown();
+        let is_shown = |frame: &Frame| shown.binary_search(&frame.step).is_ok();
+        let steps = frames.steps().filter(is_shown);
+        let times_s = steps.map(|frame| (frame.step, frame.time_s)).collect();
+        Ok(Self { frames, times_s })
+    }
+
+    /// The picture nearest to a time.
+    fn nearest(&self, time_s: f64) -> Option<Frame> {
+        let off = |(_, own): &&(u64, f64)| (own - time_s).abs();
+        let nearest = self
+            .times_s
+            .iter()
+            .min_by(|one, two| off(one).total_cmp(&off(two)));
+        self.frames.frame(nearest?.0)
+    }
 }
 
 /// Writes the scalars of every step where a table is asked for; bytes.

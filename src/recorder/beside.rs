@@ -260,6 +260,8 @@ impl Written<'_> {
             views.log(stream, Some(scene), &frame);
             let words = format!("## {}\n\n{}", run.run.name, run.run.frames.text(frame.step));
             stream.log(entities::text::NOW, &TextDocument::from_markdown(words));
+            let words = run.run.frames.lecture(frame.step);
+            stream.log(entities::text::LECTURE, &TextDocument::from_markdown(words));
             if name != RUNS[0] {
                 self.log_difference(&mut difference, moment, &frame)?;
             }

@@ -57,6 +57,8 @@ pub struct RecordedFrames {
     pictures: HashMap<String, SteppedImages>,
     /// What stood under *Now*.
     texts: Vec<(i64, String)>,
+    /// The same for an audience.
+    lectures: Vec<(i64, String)>,
     broken_off: Option<String>,
 }
 
@@ -72,6 +74,8 @@ struct FoundRows {
     rows: Vec<(i64, Vec<f64>)>,
     pictures: HashMap<String, SteppedImages>,
     texts: Vec<(i64, String)>,
+    /// The same for an audience.
+    lectures: Vec<(i64, String)>,
     /// Entities whose looks are there: pictures of them follow.
     announced: BTreeSet<String>,
     /// Last step, and whether nothing comes after it.
@@ -120,6 +124,7 @@ impl RecordedFrames {
             rows: found.rows,
             pictures: found.pictures,
             texts: found.texts,
+            lectures: found.lectures,
             broken_off: found.broken_off,
         };
         if frames.shown().is_empty() || frames.steps().count() < frames.rows.len() {
@@ -256,8 +261,12 @@ impl RecordedFrames {
 
     /// The caption and the numbers that stood beside a step.
     pub fn text(&self, step: u64) -> &str {
-        let after = self.texts.partition_point(|(own, _)| *own <= step as i64);
-        self.texts[..after].last().map_or("", |(_, text)| text)
+        text_at(&self.texts, step)
+    }
+
+    /// What stood beside it for an audience.
+    pub fn lecture(&self, step: u64) -> &str {
+        text_at(&self.lectures, step)
     }
 
     /// The picture that holds at a step.
@@ -288,6 +297,12 @@ impl RecordedFrames {
         let si = |value: &f32| (f64::from(*value) / unit.per_si) as f32;
         (values.len() == count).then(|| values.iter().map(si).collect())
     }
+}
+
+/// The text that holds at a step.
+fn text_at(texts: &[(i64, String)], step: u64) -> &str {
+    let after = texts.partition_point(|(own, _)| *own <= step as i64);
+    texts[..after].last().map_or("", |(_, text)| text)
 }
 
 /// Rows from the last to the first.
@@ -331,6 +346,7 @@ impl FoundRows {
         found.rows.sort_by_key(|(step, _)| *step);
         found.rows.dedup_by_key(|(step, _)| *step);
         found.texts.sort_by_key(|(step, _)| *step);
+        found.lectures.sort_by_key(|(step, _)| *step);
         for pictures in found.pictures.values_mut() {
             pictures.sort_by_key(|(step, _)| *step);
         }
@@ -356,6 +372,7 @@ impl FoundRows {
         let is_whole = |step: i64| step <= last;
         self.rows.retain(|(step, _)| is_whole(*step));
         self.texts.retain(|(step, _)| is_whole(*step));
+        self.lectures.retain(|(step, _)| is_whole(*step));
         for pictures in self.pictures.values_mut() {
             pictures.retain(|(step, _)| is_whole(*step));
         }
@@ -417,9 +434,14 @@ impl FoundRows {
             self.names
                 .extend(strings(chunk, SeriesLines::descriptor_names().component));
             self.rows.extend(steps.iter().copied().zip(numbers(chunk)));
-        } else if entity == text::NOW {
+        } else if entity == text::NOW || entity == text::LECTURE {
             let texts = strings(chunk, TextDocument::descriptor_text().component);
-            self.texts.extend(steps.iter().copied().zip(texts));
+            let all = if entity == text::NOW {
+                &mut self.texts
+            } else {
+                &mut self.lectures
+            };
+            all.extend(steps.iter().copied().zip(texts));
         } else {
             let of_body = |body: usize| damage_block(DAMAGE[body]) == entity;
             let place = match entity {

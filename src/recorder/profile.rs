@@ -26,7 +26,7 @@ const HEIGHT: f64 = 0.46;
 /// Room between it and the trace, over its width: titles of the trace.
 const BETWEEN: f64 = 0.1;
 /// Pixels of the stress.
-const PIXELS: [usize; 2] = [80, 36];
+const PIXELS: [usize; 2] = [120, 54];
 /// Columns of oil.
 const COLUMNS: usize = 192;
 /// Radius of a column over its width: they overlap, so that no seam is seen between them.

@@ -62,10 +62,12 @@ pub(crate) fn log_notes<'a>(
 ) {
     let mut notes = format!(
         "# Notes on the data\n\n{cadence} Interferogram, traction, \
-         roughness, shear stress and damage take every second of them.\n\n{exaggeration}\n\nMaps are stored in \
-         half precision (0.05 %), in the unit of the entity's name. Colours have one range: what can come by the scene's \
+         roughness, shear stress and damage take every second of them.\n\n{exaggeration}\n\nPictures show the contact and what is near it. \
+         Pressure, film, effective stress and temperature are stored in levels, powers of two of the unit of the entity's name: \
+         at least 4096 of the colour range (film: 8192, and no more than twice its range); what has a sign in half precision \
+         (0.05 %). Colours have one range: what can come by the scene's \
          script. A knob turned by hand beyond the script widens it from then on: the legends change, the log tells, and \
-         below stand the widest. Values above the range take the top colour and are told under *Now*, but film takes a dark one of its own, in the map and over time; none is cut \
+         below stand the widest. Values above the range take the top colour and are told under *Now*, but film takes a dark one of its own, in the map and over time; none but film is cut \
          off in the file below 65 504 units. The slice below body 1 and the damage maps have a row for each depth \
          that was computed; the depths are in the axis. Entities under `slice_over_log_depth` and `profile_y0` are resampled \
          for looking at. Damage that has not been counted yet is no number (NaN).\n\n\
@@ -138,19 +140,20 @@ pub(crate) fn with_band(text: &str, band: &str) -> String {
 /// Cautions that an audience reads.
 const READ: usize = 2;
 
-/// Caption and life, each a heading, and what to think of it.
+/// What moves and what that costs, each a heading; what takes the life, where, how often, and what to think of it.
 fn lecture(frame: &Frame, caption: &str) -> String {
     let m = &frame.metrics;
     let mut text = String::with_capacity(512);
-    let slide_roll = sig(m.slide_roll, 3);
-    let motion = match m.slide_roll {
-        0.0 => "both bodies roll alike".to_owned(),
-        s if s > 0.0 => "body 1 is the slower".to_owned(),
-        _ => "body 2 is the slower".to_owned(),
-    };
+    let speeds = [-0.5, 0.5].map(|half| sig(m.entrainment_m_s * (1.0 + half * m.slide_roll), 3));
     // Writing to a string cannot fail.
     let _ = match caption {
-        "" => writeln!(text, "## S = {slide_roll}: {motion}\n"),
+        "" => {
+            let (slide_roll, [one, two]) = (sig(m.slide_roll, 3), speeds);
+            writeln!(
+                text,
+                "## S = {slide_roll}: body 1 {one}, body 2 {two} m/s\n"
+            )
+        }
         caption => writeln!(text, "## {caption}\n"),
     };
     if let Some(life) = &m.life {
@@ -159,9 +162,11 @@ fn lecture(frame: &Frame, caption: &str) -> String {
             life.life_relative_low,
             life.life_relative_high,
         ]
-        .map(|v| sig(v, 2));
+        .map(|v| sig(v, 3));
         let _ = writeln!(text, "{HEADING} {value} ({low} to {high})\n");
+        let _ = writeln!(text, "### of the smooth contact's\n");
         let _ = writeln!(text, "{}\n", choices(life));
+        let _ = writeln!(text, "{}", suffers(frame, life.detail.body));
     } else {
         let _ = writeln!(
             text,
@@ -171,6 +176,34 @@ fn lecture(frame: &Frame, caption: &str) -> String {
     }
     for caution in frame.cautions().iter().take(READ) {
         let _ = writeln!(text, "- {}", caution.text);
+    }
+    text
+}
+
+/// How often a point of the governing body is touched in a crossing, and where it suffers most.
+fn suffers(frame: &Frame, body: u8) -> String {
+    let m = &frame.metrics;
+    let [formula, counted] = match body {
+        1 => [m.n_body_1, m.n_counted_body_1],
+        _ => [m.n_body_2, m.n_counted_body_2],
+    };
+    let mut text = String::new();
+    if let Some(contacts) = counted.or(formula) {
+        let by = if counted.is_some() {
+            "counted"
+        } else {
+            "by the waves"
+        };
+        let contacts = sig(contacts, 3);
+        let _ = writeln!(
+            text,
+            "- {contacts} contacts a crossing of its points ({by})"
+        );
+    }
+    let damage = frame.damage[usize::from(body == 2)].as_ref();
+    if let Some(damage) = damage.filter(|damage| damage.filled > 0) {
+        let depth = sig(damage.pit_depth_m * 1e6, 3);
+        let _ = writeln!(text, "- damage is greatest {depth} µm below its surface");
     }
     text
 }

@@ -79,8 +79,8 @@ impl TraceEntity {
             ..PlotBox::default()
         };
         let style = Points2D::update_fields()
-            .with_radii([Radius::new_ui_points(5.0), Radius::new_ui_points(0.0)])
-            .with_colors([faded(GREEN, 255), faded(WHITE, 255)])
+            .with_radii([Radius::new_ui_points(0.0), Radius::new_ui_points(5.0)])
+            .with_colors([faded(WHITE, 255), faded(GREEN, 255)])
             .with_show_labels(true)
             .with_draw_order(30.0);
         stream.log_static(NOW, &style);
@@ -198,9 +198,12 @@ impl View for TraceEntity {
             (0.5 * (left + right)) as f32,
             (0.97 * self.plot.y[0]) as f32,
         ];
+        // Away from the contact it is not in the picture.
+        let is_inside = (left..=right).contains(&(point.x_m * MM));
+        let here = is_inside.then(|| self.place(point.x_m, point.pressure_pa));
         let now = Points2D::update_fields()
-            .with_positions([self.place(point.x_m, point.pressure_pa), label_at])
-            .with_labels([String::new(), label]);
+            .with_positions(std::iter::once(label_at).chain(here))
+            .with_labels([label, String::new()]);
         stream.log(NOW, &now);
     }
 }

@@ -78,6 +78,7 @@ fn pictures_are_drawn_of_every_map_and_of_the_centre_line() {
         "tau_xz",
         "centre_line",
         "profile",
+        "passage",
     ] {
         let file = folder.path().join(format!("step_000016_{name}.png"));
         let picture = std::fs::read(&file).unwrap();
@@ -218,6 +219,61 @@ mod from_a_recording {
             compared += 1;
         }
         assert!(compared >= 4 * 8, "{compared}");
+    }
+
+    #[test]
+    fn recordings_are_drawn_side_by_side_in_the_same_ranges() {
+        let folder = tempfile::tempdir().unwrap();
+        let (frames, _) = both(folder.path(), 4);
+        let high: Vec<Frame> = frames
+            .iter()
+            .map(|frame| {
+                let mut frame = Frame::clone(frame);
+                frame.pressure_pa.iter_mut().for_each(|p| *p *= 2.0);
+                frame.metrics.p_max_pa *= 2.0;
+                frame
+            })
+            .collect();
+        let drawn = |name: &str, others: &[&[Frame]]| {
+            let out = folder.path().join(name);
+            let formats = [Format::Png, Format::Gif];
+            let export = Export::create(&out, Overwrite::Refuse, &formats).unwrap();
+            let chosen = ["pressure", "passage"].map(str::to_owned);
+            let scene = context().scene;
+            let scenes = others.iter().map(|_| &*scene);
+            let mut export = export.of(&chosen, PrintSize::default()).beside(scenes);
+            export.begin(&context()).unwrap();
+            for (k, frame) in frames.iter().enumerate() {
+                let others = others.iter().map(|run| &run[k]);
+                let all: Vec<&Frame> = std::iter::once(&**frame).chain(others).collect();
+                export.take_all(&all, true).unwrap();
+            }
+            export.finish().unwrap();
+            assert!(out.join("passage.gif").exists());
+            let size = |name: &str| {
+                let bytes = std::fs::read(out.join(name)).unwrap();
+                [16, 20].map(|at| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap()))
+            };
+            let [wide, tall] = size("step_000004_passage.png");
+            assert_eq!(wide as usize, 900 * (1 + others.len()));
+            assert!(tall > 700);
+            pixels(&out.join("step_000004_pressure.png"))
+        };
+        let [alone, twice, with_higher] = [
+            drawn("alone", &[]),
+            drawn("twice", &[&high]),
+            drawn("three", &[&high, &high]),
+        ];
+        // The right half of two is the middle third of three, and the left one is drawn to the higher range.
+        let part = |pixels: &[u8], runs: usize, at: usize| -> Vec<u8> {
+            let rows = pixels.chunks_exact(3 * 900 * runs);
+            rows.flat_map(|row| &row[3 * 900 * at..][..3 * 900])
+                .copied()
+                .collect()
+        };
+        assert_eq!(part(&twice, 2, 1), part(&with_higher, 3, 1));
+        assert_eq!(part(&with_higher, 3, 1), part(&with_higher, 3, 2));
+        assert_ne!(part(&twice, 2, 0), alone, "its range is the common one");
     }
 
     #[test]

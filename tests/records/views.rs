@@ -28,9 +28,9 @@ fn the_profile_has_the_gap_to_scale_in_every_picture() {
     let stress = contents.pictures("profile_y0/effective_stress_GPa/image");
     assert_eq!(stress.len(), pictures);
     // No more than half precision would take.
-    assert!(stress.values().all(|bytes| bytes.len() <= 2 * 80 * 36));
+    assert!(stress.values().all(|bytes| bytes.len() <= 2 * 120 * 54));
     let values = contents.values("profile_y0/effective_stress_GPa/image");
-    assert!(values.values().all(|values| values.len() == 80 * 36));
+    assert!(values.values().all(|values| values.len() == 120 * 54));
     let oil = contents.strips("profile_y0/oil");
     assert_eq!(oil.len(), pictures);
     // mm of the picture for a m of height: the axis is what can come, and the same in all of them.

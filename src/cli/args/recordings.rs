@@ -49,12 +49,18 @@ pub(crate) struct ExportArgs {
     /// Folder to write to [default: ./NAME_export]
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
-    /// Which pictures, by name [default: all; of those that move the pressure]
+    /// Recordings that are drawn beside it, each with its picture nearest in time
+    #[arg(long, value_name = "FILE.rrd", value_delimiter = ',')]
+    pub(crate) beside: Vec<PathBuf>,
+    /// Which pictures, by name [default: all; of those that move the passage]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(crate) show: Vec<String>,
+    /// Still of the step nearest to this one [default: the last]
+    #[arg(long, value_name = "N", conflicts_with = "every")]
+    pub(crate) step: Option<u64>,
     /// Stills of every N-th step at most
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u64).range(1..))]
-    pub(crate) every: u64,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) every: Option<u64>,
     /// Width of SVG and PDF, mm
     #[arg(long, value_name = "MM", default_value_t = 85.0, value_parser = within::<30, 1000>)]
     pub(crate) width_mm: f64,

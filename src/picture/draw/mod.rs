@@ -256,6 +256,28 @@ impl Drawing {
         }
     }
 
+    /// That and another at its right.
+    #[must_use]
+    pub(crate) fn beside(mut self, other: Self) -> Self {
+        let by = self.size[0];
+        self.size = [by + other.size[0], self.size[1].max(other.size[1])];
+        self.fields
+            .extend(other.fields.into_iter().map(|mut field| {
+                field.area.left += by;
+                field
+            }));
+        self.shapes
+            .extend(other.shapes.into_iter().map(|mut shape| {
+                shape.points.iter_mut().for_each(|[x, _]| *x += by);
+                shape
+            }));
+        self.texts.extend(other.texts.into_iter().map(|mut text| {
+            text.at[0] += by;
+            text
+        }));
+        self
+    }
+
     pub(crate) fn font(&self) -> f64 {
         self.font
     }

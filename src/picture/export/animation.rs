@@ -9,10 +9,10 @@ use gif::{Encoder, EncodingError, Repeat};
 use crate::draw::Pixels;
 
 /// Most pictures that are kept; when there are more every other one goes.
-const MOST: usize = 120;
-/// How long a passage is shown, s, and a picture at least and at most.
-const PASSAGE_S: f64 = 10.0;
-const SHOWN_S: [f64; 2] = [0.04, 0.2];
+const MOST: usize = 180;
+/// How long all of them are shown, s, and one at least and at most: 12 to 20 a second look as if they moved.
+const ALL_S: f64 = 10.0;
+const SHOWN_S: [f64; 2] = [0.05, 0.08];
 
 /// Pictures of one size.
 #[derive(Debug, Default)]
@@ -21,17 +21,12 @@ pub(super) struct Animation {
     /// Pictures that came, and how many make one that is kept.
     came: usize,
     every: usize,
-    /// Where the first and the last are, passages.
-    passages: [f64; 2],
 }
 
 impl Animation {
     /// Whether the next picture is kept; one that is not need not be drawn.
-    pub(super) fn wants(&mut self, passages: f64) -> bool {
-        if self.came == 0 {
-            (self.every, self.passages[0]) = (1, passages);
-        }
-        self.passages[1] = passages;
+    pub(super) fn wants(&mut self) -> bool {
+        self.every = self.every.max(1);
         let wants = self.came.is_multiple_of(self.every);
         self.came += 1;
         wants
@@ -52,8 +47,7 @@ impl Animation {
 
     /// How long a picture is shown, hundredths of a second.
     fn delay(&self) -> u16 {
-        let shown =
-            PASSAGE_S * (self.passages[1] - self.passages[0]) / self.pictures.len().max(1) as f64;
+        let shown = ALL_S / self.pictures.len().max(1) as f64;
         let [least, most] = SHOWN_S;
         (100.0 * shown.clamp(least, most)).round() as u16
     }
@@ -165,13 +159,13 @@ mod tests {
     fn long_animations_keep_every_other_picture() {
         let mut animation = Animation::default();
         for k in 0..500 {
-            if animation.wants(f64::from(k) / 100.0) {
+            if animation.wants() {
                 animation.push(one_pixel([k as u8, 0, 0]));
             }
         }
         let kept = animation.pictures.iter().map(|picture| picture.rgb[0]);
         let kept: Vec<u8> = kept.collect();
-        assert!((60..=121).contains(&kept.len()), "{}", kept.len());
+        assert!((90..=181).contains(&kept.len()), "{}", kept.len());
         let steps = kept.windows(2).map(|pair| pair[1].wrapping_sub(pair[0]));
         let steps: Vec<u8> = steps.collect();
         assert!(steps.iter().all(|step| *step == steps[0]), "{steps:?}");
@@ -181,8 +175,8 @@ mod tests {
     fn colours_come_back() {
         let mut animation = Animation::default();
         let colours = [[255; 3], [255; 3], [200, 8, 16]];
-        for (k, colour) in colours.into_iter().enumerate() {
-            assert!(animation.wants(k as f64));
+        for colour in colours {
+            assert!(animation.wants());
             animation.push(one_pixel(colour));
         }
         let mut file = Vec::new();
@@ -192,7 +186,7 @@ mod tests {
         let mut decoder = options.read_info(file.as_slice()).unwrap();
         let mut shown = Vec::new();
         while let Some(frame) = decoder.read_next_frame().unwrap() {
-            assert_eq!(frame.delay, 20);
+            assert_eq!(frame.delay, 8);
             shown.push(frame.buffer.to_vec());
         }
         // The second is the same as the one before and lets it through.

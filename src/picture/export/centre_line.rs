@@ -7,7 +7,7 @@ use crate::draw::{Axis, Drawing, Rect, Rgb, Side, Text, text_width};
 use asperity_engine::math::number::{GPA, MM, UM, Unit};
 use asperity_engine::sim::Frame;
 
-const PRESSURE: Rgb = [213, 94, 0];
+pub(super) const PRESSURE: Rgb = [213, 94, 0];
 const FILM: Rgb = [0, 114, 178];
 
 /// A curve of the figure, in the units of its axis.

@@ -12,6 +12,7 @@ mod fields;
 mod map;
 mod npz;
 mod pages;
+mod passage;
 mod profile;
 mod sheet;
 mod vtk;
@@ -26,12 +27,13 @@ use clap::ValueEnum as _;
 
 use self::animation::Animation;
 use self::fields::write_npz;
-use self::pages::{Pictures, SheetKind};
+use self::pages::{Page, Pictures, SheetKind};
 pub use self::sheet::PrintSize;
 use crate::draw::Drawing;
 use asperity_engine::observe::{
     NOTHING_CAME, ObserveError, Observer, ObserverReport, Overwrite, RunContext, RunEvent,
 };
+use asperity_engine::scene::Scene;
 use asperity_engine::sim::{Frame, Stage};
 
 /// What is written of a step; the words are the command line's.
@@ -105,7 +107,8 @@ pub struct Export {
     overwrite: Overwrite,
     formats: Vec<Format>,
     scene_toml: String,
-    pictures: Pictures,
+    /// Of the run, and of those that stand beside it.
+    pictures: Vec<Pictures>,
     /// Pictures that are drawn; empty: all, or of those that move the one that tells most.
     chosen: Vec<String>,
     print: PrintSize,
@@ -153,7 +156,7 @@ impl Export {
             overwrite,
             formats: formats.to_vec(),
             scene_toml: String::new(),
-            pictures: Pictures::default(),
+            pictures: vec![Pictures::default()],
             chosen: Vec::new(),
             print: PrintSize::default(),
             moving: BTreeMap::new(),
@@ -176,32 +179,51 @@ impl Export {
         self
     }
 
+    /// Draws runs of these scenes beside the one that it begins with, in ranges that hold for all.
+    #[must_use]
+    pub fn beside<'a>(mut self, scenes: impl Iterator<Item = &'a Scene>) -> Self {
+        self.pictures.extend(scenes.map(Pictures::new));
+        self
+    }
+
     /// Takes a step up: as a still where that is wanted, and for the pictures that move.
     ///
     /// # Errors
     /// When a file cannot be written.
     pub fn take(&mut self, frame: &Frame, as_still: bool) -> Result<(), ObserveError> {
+        self.take_all(&[frame], as_still)
+    }
+
+    /// The same of all runs that stand beside each other; arrays are those of the first.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn take_all(&mut self, frames: &[&Frame], as_still: bool) -> Result<(), ObserveError> {
+        let Some(&frame) = frames.first() else {
+            return Ok(());
+        };
         if self.frames == 0 {
             self.move_in()?;
+            self.share_ranges(frames);
         }
         let print = SheetKind::Printed(self.print);
         let drawn = |format: &Format| !matches!(format, Format::Npz | Format::Vti | Format::Csv);
         // Arrays hold all of a frame.
-        let shown = if self.formats.iter().any(drawn) {
-            &self.pictures.shown(frame)
-        } else {
-            frame
-        };
+        let mut shown = Vec::new();
+        if self.formats.iter().any(drawn) {
+            let pairs = self.pictures.iter_mut().zip(frames);
+            shown.extend(pairs.map(|(pictures, frame)| pictures.shown(frame)));
+        }
         if self.formats.contains(&Format::Gif) {
-            self.follow(shown)?;
+            self.follow(&shown)?;
         }
         for format in self.formats.clone().into_iter().filter(|_| as_still) {
             self.bytes += match format {
                 Format::Npz => self.write(frame, NPZ, &|out| write_npz(out, frame))?,
                 Format::Vti => self.write_vtk(frame)?,
-                Format::Png => self.draw(shown, format, SheetKind::Still, Drawing::png)?,
-                Format::Svg => self.draw(shown, format, print, Drawing::svg)?,
-                Format::Pdf => self.draw(shown, format, print, Drawing::pdf)?,
+                Format::Png => self.draw(&shown, format, SheetKind::Still, Drawing::png)?,
+                Format::Svg => self.draw(&shown, format, print, Drawing::svg)?,
+                Format::Pdf => self.draw(&shown, format, print, Drawing::pdf)?,
                 Format::Gif | Format::Csv => 0,
             };
         }
@@ -209,20 +231,50 @@ impl Export {
         Ok(())
     }
 
+    /// Gives runs that stand beside each other the same ranges.
+    fn share_ranges(&mut self, frames: &[&Frame]) {
+        let scopes = self.pictures.iter().zip(frames);
+        let scopes = scopes.map(|(pictures, frame)| pictures.scope(frame));
+        let common = scopes.reduce(|one, other| one.with(&other));
+        if let Some(common) = common.filter(|_| frames.len() > 1) {
+            for pictures in &mut self.pictures {
+                pictures.share(&common);
+            }
+        }
+    }
+
+    /// A page of all runs.
+    fn page(
+        &mut self,
+        shown: &[Frame],
+        page: Page,
+        kind: SheetKind,
+    ) -> Result<Drawing, ObserveError> {
+        let pairs = self.pictures.iter_mut().zip(shown);
+        let all: Result<Vec<Drawing>, String> = pairs
+            .map(|(pictures, frame)| pictures.draw(frame, page, kind))
+            .collect();
+        let joined = all.and_then(|all| {
+            let joined = all.into_iter().reduce(Drawing::beside);
+            joined.ok_or_else(|| "there is no run".to_owned())
+        });
+        joined.map_err(|reason| self.failed(&Error::other(reason)))
+    }
+
     /// A step's pictures in one format; the bytes written.
     fn draw(
         &mut self,
-        frame: &Frame,
+        shown: &[Frame],
         format: Format,
         sheet: SheetKind,
         file: fn(&Drawing) -> Result<Vec<u8>, String>,
     ) -> Result<u64, ObserveError> {
         let mut bytes = 0;
-        for (name, page) in Pictures::pages(frame, &self.chosen) {
-            let drawn = self.pictures.draw(frame, page, sheet);
-            let drawn = drawn.and_then(|drawing| file(&drawing));
+        for (name, page) in Pictures::pages(shown, &self.chosen) {
+            let drawn = file(&self.page(shown, page, sheet)?);
             let drawn = drawn.map_err(|reason| self.failed(&Error::other(reason)))?;
-            let name = format!("step_{:06}_{name}.{}", frame.step, format.ending());
+            let step = shown.first().map_or(0, |frame| frame.step);
+            let name = format!("step_{step:06}_{name}.{}", format.ending());
             self.overwrite.write(&self.folder.join(name), &drawn)?;
             bytes += drawn.len() as u64;
         }
@@ -230,18 +282,18 @@ impl Export {
     }
 
     /// Takes a step up for the pictures that move, which are written at the end.
-    fn follow(&mut self, frame: &Frame) -> Result<(), ObserveError> {
-        let one = [Pictures::moving(frame).to_owned()];
+    fn follow(&mut self, shown: &[Frame]) -> Result<(), ObserveError> {
+        let one = [Pictures::MOVING.to_owned()];
         let chosen = if self.chosen.is_empty() {
             &one[..]
         } else {
             &self.chosen
         };
-        for (name, page) in Pictures::pages(frame, chosen) {
-            let animation = self.moving.entry(name).or_default();
-            if animation.wants(frame.passages) {
-                let drawn = self.pictures.draw(frame, page, SheetKind::Moving);
-                let pixels = drawn.and_then(|drawing| drawing.pixels());
+        let shared = shown.len() > 1;
+        let kind = SheetKind::Moving { shared };
+        for (name, page) in Pictures::pages(shown, chosen) {
+            if self.moving.entry(name).or_default().wants() {
+                let pixels = self.page(shown, page, kind)?.pixels();
                 let pixels = pixels.map_err(|reason| self.failed(&Error::other(reason)))?;
                 self.moving.entry(name).or_default().push(pixels);
             }
@@ -351,7 +403,7 @@ fn moving_file(name: &str) -> String {
 impl Observer for Export {
     fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
         self.scene_toml.clone_from(&context.scene_toml);
-        self.pictures = Pictures::new(&context.scene);
+        self.pictures[0] = Pictures::new(&context.scene);
         Ok(())
     }
 

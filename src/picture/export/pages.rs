@@ -6,6 +6,7 @@ use std::borrow::Cow;
 
 use super::centre_line::centre_line;
 use super::map::map;
+use super::passage::{self, PointTrace};
 use super::profile::ProfilePage;
 use super::sheet::{Heading, PrintSize, Sheet};
 use crate::draw::Drawing;
@@ -20,6 +21,7 @@ pub(super) struct Pictures {
     scene: Option<Scene>,
     scope: Option<Scope>,
     window: Option<Window>,
+    trace: PointTrace,
 }
 
 impl Pictures {
@@ -29,23 +31,20 @@ impl Pictures {
             scene: Some(scene.clone()),
             scope: None,
             window: None,
+            trace: PointTrace::default(),
         }
     }
 
-    /// What of the chosen a frame shows: names and pages. Nothing chosen: all.
-    pub(super) fn pages(frame: &Frame, chosen: &[String]) -> Vec<(&'static str, Page)> {
+    /// What of the chosen all frames show: names and pages. Nothing chosen: all.
+    pub(super) fn pages(frames: &[Frame], chosen: &[String]) -> Vec<(&'static str, Page)> {
         let is_chosen = |name: &str| chosen.is_empty() || chosen.iter().any(|own| own == name);
-        let shown = PAGES.into_iter().filter(|(_, page)| page.is_in(frame));
+        let is_in_all = |page: Page| frames.iter().all(|frame| page.is_in(frame));
+        let shown = PAGES.into_iter().filter(|(_, page)| is_in_all(*page));
         shown.filter(|(name, _)| is_chosen(name)).collect()
     }
 
     /// What an animation shows where nothing was chosen.
-    pub(super) fn moving(frame: &Frame) -> &'static str {
-        match frame.kind {
-            ContactKind::Point => "pressure",
-            ContactKind::Line => "centre_line",
-        }
-    }
+    pub(super) const MOVING: &str = "passage";
 
     /// Names of all pages.
     pub(super) fn names() -> impl Iterator<Item = &'static str> {
@@ -60,11 +59,22 @@ impl Pictures {
         scope.ranges
     }
 
-    /// What of a frame pictures show.
+    /// Takes ranges that hold for others too.
+    pub(super) fn share(&mut self, scope: &Scope) {
+        self.scope = Some(scope.clone());
+    }
+
+    /// Ranges of a run that begins with that frame.
+    pub(super) fn scope(&self, frame: &Frame) -> Scope {
+        Scope::of(self.scene.as_ref(), frame)
+    }
+
+    /// What of a frame pictures show. Every frame comes by here once, in its order.
     pub(super) fn shown(&mut self, frame: &Frame) -> Frame {
         let scene = self.scene.as_ref();
         let around = || Window::around(frame, Scope::of(scene, frame).to_come.size);
         let window = self.window.get_or_insert_with(around);
+        self.trace.follow(frame);
         if window.is_of(frame) {
             window.cut(frame)
         } else {
@@ -89,13 +99,13 @@ impl Pictures {
     ) -> Result<Drawing, String> {
         let ranges = self.ranges(frame);
         let name = self.scene.as_ref().map_or("", |scene| scene.title.as_str());
-        let heading = |state: String| Heading {
-            title: format!("{name}: {}", page.title()),
-            state,
-        };
+        let usual = || format!("{name}: {}", page.title());
+        let life = passage::life(frame).filter(|_| page == Page::Passage);
+        let title = life.unwrap_or_else(usual);
+        let heading = |state: String| Heading { title, state };
         let sheet = match kind {
             SheetKind::Still => Sheet::still(heading(state(frame))),
-            SheetKind::Moving => Sheet::moving(heading(moving_state(frame))),
+            SheetKind::Moving { shared } => Sheet::moving(heading(moving_state(frame)), shared),
             SheetKind::Printed(print) => Sheet::printed(&print),
         };
         let x_title = page.x_title();
@@ -104,6 +114,11 @@ impl Pictures {
             Page::Profile => {
                 let profile = self.profile(frame);
                 profile.map(|profile| profile.draw(&sheet, x_title))
+            }
+            Page::Passage => {
+                let profile = self.profile(frame);
+                let (trace, top) = (&self.trace, ranges.pressure_pa);
+                profile.map(|profile| passage::draw(frame, &profile, trace, top, &sheet, x_title))
             }
             Page::Map(subject) => {
                 let picture = Picture::of(frame, subject, &ranges);
@@ -124,8 +139,8 @@ impl Pictures {
 pub(super) enum SheetKind {
     /// A screen.
     Still,
-    /// A screen, as one of many.
-    Moving,
+    /// A screen, as one of many; whether runs share it.
+    Moving { shared: bool },
     /// A paper.
     Printed(PrintSize),
 }
@@ -139,12 +154,14 @@ pub(super) enum Page {
     CentreLine,
     /// Both surfaces along y = 0 and the oil between them.
     Profile,
+    /// The same with what the followed point meets, and the life.
+    Passage,
     /// Damage collected by a block of body 1 (0) or 2 (1).
     Damage(usize),
 }
 
 /// The pages and the names of their files.
-const PAGES: [(&str, Page); 15] = [
+const PAGES: [(&str, Page); 16] = [
     ("pressure", Page::Map(Subject::Pressure)),
     ("film", Page::Map(Subject::Film)),
     ("interferogram", Page::Map(Subject::Interferogram)),
@@ -158,6 +175,7 @@ const PAGES: [(&str, Page); 15] = [
     ("tau_xz", Page::Map(Subject::ShearStress)),
     ("centre_line", Page::CentreLine),
     ("profile", Page::Profile),
+    ("passage", Page::Passage),
     ("damage_1", Page::Damage(0)),
     ("damage_2", Page::Damage(1)),
 ];
@@ -168,6 +186,7 @@ impl Page {
             Self::Map(subject) => subject.title(),
             Self::CentreLine => "Pressure and film at y = 0",
             Self::Profile => "Surfaces and oil at y = 0",
+            Self::Passage => "A point that passes",
             Self::Damage(0) => "Damage of body 1, log10 of the smooth contact's worst",
             Self::Damage(_) => "Damage of body 2, log10 of the smooth contact's worst",
         }
@@ -176,7 +195,7 @@ impl Page {
     fn x_title(self) -> &'static str {
         match self {
             Self::Damage(_) => "distance along the surface from a crest, mm",
-            Self::Map(_) | Self::CentreLine | Self::Profile => {
+            Self::Map(_) | Self::CentreLine | Self::Profile | Self::Passage => {
                 "x, mm (rolling direction to the right)"
             }
         }
@@ -186,7 +205,7 @@ impl Page {
     fn is_in(self, frame: &Frame) -> bool {
         let subject = match self {
             Self::Map(subject) => subject,
-            Self::CentreLine | Self::Profile => return true,
+            Self::CentreLine | Self::Profile | Self::Passage => return true,
             Self::Damage(body) => {
                 let block = frame.damage[body].as_ref();
                 return block.is_some_and(|block| block.filled > 0);

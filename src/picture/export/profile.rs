@@ -3,16 +3,16 @@
 
 use super::sheet::Sheet;
 use crate::Scope;
-use crate::draw::{Axis, Drawing, Side};
+use crate::draw::{Axis, Drawing, Rect, Side};
 use crate::profile::{ProfileColumn, ProfileScale, SurfaceProfile};
 use asperity_engine::math::number::{MM, UM, sig};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::Frame;
 
 /// Height of the picture over its width.
-const HEIGHT: f64 = 0.5;
+pub(super) const HEIGHT: f64 = 0.5;
 /// The followed point.
-const POINT: [u8; 3] = [0, 158, 115];
+pub(super) const POINT: [u8; 3] = [0, 158, 115];
 
 /// A profile and what is drawn on it.
 pub(super) struct ProfilePage<'a> {
@@ -86,16 +86,31 @@ impl<'a> ProfilePage<'a> {
         bytes
     }
 
+    /// x at both edges, mm.
+    pub(super) fn x_mm(&self) -> [f64; 2] {
+        self.ends()[0]
+    }
+
+    /// Where the followed point is: parts of the picture along and down; `None`: not in it.
+    pub(super) fn point(&self) -> Option<[f64; 2]> {
+        self.point
+    }
+
     /// Draws it.
     pub(super) fn draw(&self, sheet: &Sheet, x_title: &str) -> Drawing {
         let (mut drawing, plot) = sheet.begin(1.0, HEIGHT);
+        self.draw_on(&mut drawing, plot, sheet);
+        drawing.axis(plot, Side::Below, &Axis::linear(self.x_mm(), x_title));
+        drawing
+    }
+
+    /// Draws it on a part of a sheet, without the axis below.
+    pub(super) fn draw_on(&self, drawing: &mut Drawing, plot: Rect, sheet: &Sheet) {
         drawing.field(sheet.field(plot, |pixels| self.pixels(pixels)));
-        let [x, z] = self.ends();
+        let [_, z] = self.ends();
         let z_title = self.exaggeration();
         drawing.frame(plot);
-        drawing.axis(plot, Side::Below, &Axis::linear(x, x_title));
         drawing.axis(plot, Side::Left, &Axis::linear(z, &z_title));
-        drawing
     }
 }
 

@@ -49,9 +49,18 @@ impl Sheet {
         Self::screen(900.0, heading)
     }
 
-    /// One of a picture that moves.
-    pub(super) fn moving(heading: Heading) -> Self {
-        Self::screen(580.0, heading)
+    /// One of a picture that moves, smaller where it is shared by runs.
+    pub(super) fn moving(heading: Heading, shared: bool) -> Self {
+        let screen = Self::screen(580.0, heading);
+        if shared {
+            let (wide, font) = (430.0, 12.0);
+            return Self {
+                wide,
+                font,
+                ..screen
+            };
+        }
+        screen
     }
 
     fn screen(wide: f64, heading: Heading) -> Self {

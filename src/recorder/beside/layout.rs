@@ -6,7 +6,7 @@ use rerun::external::re_sdk_types::blueprint::archetypes::PlotLegend;
 use crate::entities::centre_line::CENTRE_LINE;
 use crate::entities::profile::PROFILE;
 use crate::entities::series::{LIFE, POINT_CYCLES};
-use crate::entities::text::{COMPARISON, NOW, SCENE_TOML};
+use crate::entities::text::{COMPARISON, LECTURE, NOW, SCENE_TOML};
 use crate::entities::trace::TRACE;
 use crate::entities::{DIFFERENCE, kymograph, maps};
 use crate::layout::send_tabs;
@@ -37,8 +37,8 @@ pub(crate) fn send(stream: &Stream, runs: &[ShownRun], names: &[&str]) -> Result
         names,
     };
     let tabs = vec![
-        layout.first(),
-        layout.profiles(),
+        layout.passages(),
+        layout.contacts(),
         layout.traces(),
         layout.films(),
         layout.stresses(),
@@ -72,7 +72,7 @@ impl Layout<'_> {
     }
 
     /// The contacts, the pressures with their difference, and both lives.
-    fn first(&mut self) -> ContainerLike {
+    fn contacts(&mut self) -> ContainerLike {
         let spaces = self.each(|views, shown, name| {
             let colour = RUNS.iter().zip(COLOUR_WORDS);
             let colour = colour.filter(|(run, _)| views.under.starts_with(**run));
@@ -83,7 +83,7 @@ impl Layout<'_> {
         let mut lower = self.each(|views, shown, name| Some(pressure(views, shown, name)));
         lower.extend(self.differences(ContactKind::Point));
         lower.push(self.life());
-        rows([spaces, lower], "Side by side")
+        rows([spaces, lower], "Contacts")
     }
 
     fn differences(&mut self, of: ContactKind) -> Vec<ContainerLike> {
@@ -115,13 +115,22 @@ impl Layout<'_> {
         view
     }
 
-    /// Surfaces, oil and traces of the runs.
-    fn profiles(&mut self) -> ContainerLike {
+    /// Surfaces, oil and traces of the runs, and below each what it costs.
+    fn passages(&mut self) -> ContainerLike {
         let upper = self.each(|views, shown, name| {
             let title = format!("Both surfaces and the oil between them: {name}");
             Some(views.framed(&title, &[PROFILE, TRACE], shown.profile?))
         });
-        rows([upper], "Profiles")
+        let lower = self.each(|views, _, name| Some(views.document(name, LECTURE)));
+        let has_profile = !upper.is_empty();
+        let rows = [upper, lower].into_iter().filter(|row| !row.is_empty());
+        let all = Vertical::new(rows.map(|row| Horizontal::new(row).into()));
+        let shares = if has_profile {
+            vec![2.4, 1.0]
+        } else {
+            vec![1.0]
+        };
+        all.with_row_shares(shares).with_name("Side by side").into()
     }
 
     fn traces(&mut self) -> ContainerLike {

@@ -1,4 +1,5 @@
-//! The tabs: the first is for an audience, the next for looking closer; what is used rarely comes last.
+//! The tabs: the first tells what happens, the next are for an audience and for looking closer; what is used rarely comes
+//! last.
 
 use rerun::blueprint::{ContainerLike, Grid, Horizontal, TextLogView, Vertical};
 
@@ -20,9 +21,9 @@ use asperity_picture::Subject;
 
 /// All tabs of a run.
 pub(crate) fn all(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
-    let mut tabs = vec![lecture(views, shown)];
+    let mut tabs: Vec<ContainerLike> = passage(views, shown).into_iter().collect();
     tabs.extend(tooth(views, shown));
-    tabs.extend(profile(views, shown));
+    tabs.push(lecture(views, shown));
     tabs.push(contact(views, shown));
     // The rows of a line contact are all alike: maps of it would be pictures of curves.
     if shown.kind == ContactKind::Point {
@@ -52,7 +53,7 @@ fn lecture(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     if let Some(plot) = &shown.trace {
         right.push(views.plot("A point that passes", &[TRACE], plot, Margin::Plain));
     }
-    right.push(over_time(views, shown, true));
+    right.push(over_time(views, shown, shown.kind == ContactKind::Point));
     let mut shares = vec![0.9];
     shares.resize(right.len(), 1.0);
     Horizontal::new([large, Vertical::new(right).with_row_shares(shares).into()])
@@ -82,16 +83,23 @@ fn tooth(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
     Some(both.with_name("Tooth").into())
 }
 
-/// Both surfaces with the oil between them, and under them what the point that rides on one has felt.
-fn profile(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+/// What moves and what that does: both surfaces with the oil between them, under them what the point that rides on one has
+/// felt; beside them the life in large type, and the pressure.
+fn passage(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
     let title = "Both surfaces and the oil between them, along y = 0";
     let large = views.framed(title, &[PROFILE, TRACE], shown.profile?);
     let right = Vertical::new([
         views.document("What is seen", text::LECTURE),
-        over_time(views, shown, false),
+        match shown.kind {
+            ContactKind::Point => {
+                let title = "Pressure, seen from above";
+                views.map(title, maps::PRESSURE, &[], &shown.map)
+            }
+            ContactKind::Line => over_time(views, shown, true),
+        },
     ]);
     let both = Horizontal::new([large, right.into()]).with_column_shares(vec![1.9, 1.0]);
-    Some(both.with_name("Profile").into())
+    Some(both.with_name("Passage").into())
 }
 
 /// What surfaces come to over loading cycles.
