@@ -9,7 +9,7 @@
 //! effective stress in them (to a depth of its own, as films are a thousand times thinner than what is stressed), contact
 //! is filled.
 
-use super::{CONTACT, Look, Ranges, Subject, Tint};
+use super::{ABOVE, CONTACT, Look, Ranges, Subject, Tint};
 use asperity_engine::math::number::nice_ceiling;
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{Frame, StressSlice};
@@ -27,6 +27,8 @@ pub enum Matter {
     Body(u8, f32, f32),
     /// Oil, by its pressure over the range's.
     Oil(f32),
+    /// The gap of a dry contact.
+    Nothing,
     /// Asperity contact.
     Touching,
 }
@@ -49,6 +51,8 @@ pub struct ProfileScale {
     pub share_1: f64,
     /// Height from the middle to the upper and lower edge, m.
     pub half_m: f64,
+    /// Whether there is no oil between them.
+    pub is_dry: bool,
 }
 
 impl ProfileScale {
@@ -60,6 +64,7 @@ impl ProfileScale {
         Self {
             share_1: one / (one + two),
             half_m: nice_ceiling((0.55 * film_m + 0.8 * amplitude_m).max(1e-9)),
+            is_dry: scene.lubricant.is_none(),
         }
     }
 }
@@ -160,6 +165,8 @@ impl<'a> SurfaceProfile<'a> {
             surfaces: self.surfaces(x),
             gap: if self.touches(x) {
                 Matter::Touching
+            } else if self.scale.is_dry {
+                Matter::Nothing
             } else {
                 Matter::Oil(self.pressure.share(p).clamp(0.0, 1.0))
             },
@@ -207,6 +214,7 @@ impl<'a> SurfaceProfile<'a> {
     pub fn rgb(&self, matter: Matter) -> [u8; 3] {
         let rgb = match matter {
             Matter::Touching => return CONTACT,
+            Matter::Nothing => return ABOVE,
             Matter::Oil(share) => return oil(share),
             Matter::Body(body, share, edge) => {
                 let own = STEEL[usize::from(body == 2)];
@@ -269,6 +277,7 @@ mod tests {
         let scale = ProfileScale {
             share_1,
             half_m: 5e-7,
+            is_dry: false,
         };
         SurfaceProfile::new(frame, scale, [-2.0, 2.0], &Ranges::default()).unwrap()
     }
@@ -308,6 +317,12 @@ mod tests {
         assert_eq!(oil.count(), 25, "200 nm");
         let touching = (0..125).filter(|row| at(1.0, *row) == Matter::Touching);
         assert_eq!(touching.count(), 1, "a film of no height has a pixel");
+        // Where there is no oil none is drawn.
+        let mut dry = profile;
+        dry.scale.is_dry = true;
+        assert_eq!(dry.column(0.0).gap, Matter::Nothing);
+        assert_eq!(dry.rgb(dry.at(&dry.column(0.0), 62, 125)), ABOVE);
+        assert_eq!(dry.column(1.0).gap, Matter::Touching);
     }
 
     #[test]

@@ -43,10 +43,13 @@ pub(crate) mod slice_over_log_depth {
     pub(crate) const HERTZ: &str = "slice_over_log_depth/hertz_width";
 }
 
-/// Pressure and film along y = 0 against time.
+/// Pressure, film and temperatures along y = 0 against time.
 pub(crate) mod kymograph {
     pub(crate) const PRESSURE: &str = "kymograph/pressure_y0_GPa";
     pub(crate) const FILM: &str = "kymograph/film_y0_um";
+    pub(crate) const SURFACE_1: &str = "kymograph/surface_1_rise_y0_K";
+    pub(crate) const SURFACE_2: &str = "kymograph/surface_2_rise_y0_K";
+    pub(crate) const OIL_RISE: &str = "kymograph/film_rise_y0_K";
 }
 
 /// The contact cut open.

@@ -19,7 +19,7 @@ use asperity_engine::math::number::{MM, UM, plain, sig, ticks};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::Frame;
 use asperity_picture::profile::{DEEP, Matter, ProfileColumn, ProfileScale, SurfaceProfile, oil};
-use asperity_picture::{CONTACT, Look, Ranges, Scope, Subject};
+use asperity_picture::{ABOVE, CONTACT, Look, Ranges, Scope, Subject};
 
 /// Height of the picture over its width.
 const HEIGHT: f64 = 0.46;
@@ -121,7 +121,12 @@ impl ProfileEntity {
         let place = |z_um: f64| (self.at(z_um / UM.per_si), plain(z_um));
         let left_ticks: Vec<AxisTick> = [-half_um, 0.0, half_um].map(place).into();
         let heights = format!("heights × {}", sig(self.exaggeration(), 3));
-        let below = format!("oil by its pressure, bodies by the stress to {DEEP} a below");
+        let gap = if self.scale.is_dry {
+            "dry: nothing between the bodies"
+        } else {
+            "oil by its pressure"
+        };
+        let below = format!("{gap}, bodies by the stress to {DEEP} a below");
         let is_alone = self.foot == self.plot.y[1];
         PlotBox {
             left_ticks,
@@ -158,6 +163,7 @@ impl ProfileEntity {
         });
         let colours = columns.iter().map(|column| match column.gap {
             Matter::Oil(share) => Color::from(oil(share)),
+            Matter::Nothing => Color::from(ABOVE),
             Matter::Touching | Matter::Body(..) => Color::from(CONTACT),
         });
         let strips = LineStrips2D::update_fields()

@@ -103,7 +103,7 @@ impl RunViews {
         shown.kymograph = kymographs[0].plot().clone();
         // Both are written once more at the end.
         let last: usize = kymographs.iter().map(KymographEntity::full_bytes).sum();
-        all.extend(kymographs.map(boxed));
+        all.extend(kymographs.into_iter().map(boxed));
         all.push(boxed(Damage::default()));
         let spent = [stream.expected_bytes(), TEXT * last as f64];
         let steps = expected_steps(scene, first);
@@ -269,7 +269,7 @@ fn curve_views(
     all
 }
 
-/// Pressure and film along y = 0 against time.
+/// Pressure, film and, where there is heat, temperatures along y = 0 against time.
 fn kymographs(
     stream: &Stream,
     geometry: Geometry,
@@ -277,19 +277,29 @@ fn kymographs(
     scene: Option<&Scene>,
     first: &Frame,
     scope: &Scope,
-) -> [KymographEntity; 2] {
+) -> Vec<KymographEntity> {
     let run = ExpectedRun {
         steps: expected_steps(scene, first),
         step_s: step_s(scene, first),
         budget_bytes: record.budget_mb * 1e6,
     };
-    [
+    let warm = [
+        (kymograph::SURFACE_1, Subject::Surface1),
+        (kymograph::SURFACE_2, Subject::Surface2),
+        (kymograph::OIL_RISE, Subject::OilRise),
+    ];
+    let warm = warm
+        .into_iter()
+        .filter(|(_, subject)| subject.field(first).is_some());
+    let all = [
         (kymograph::PRESSURE, Subject::Pressure),
         (kymograph::FILM, Subject::Film),
-    ]
-    .map(|(entity, subject)| {
+    ];
+    let all = all.into_iter().chain(warm);
+    all.map(|(entity, subject)| {
         KymographEntity::new(stream, geometry, entity, subject, &scope.ranges, &run)
     })
+    .collect()
 }
 
 /// Time of a step by the scene, s.

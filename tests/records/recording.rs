@@ -1236,3 +1236,45 @@ fn a_full_disk_is_an_error_and_no_panic() {
     assert_eq!(error.output, "/dev/full");
     assert!(error.reason.contains("No space left"), "{error}");
 }
+
+/// Where the scene asks for heat, temperatures are seen from above and over time; elsewhere nothing is there of them.
+#[test]
+fn temperatures_are_seen_from_above_and_over_time() {
+    let warm = changed(STEPS, |frame| {
+        let rise = |k_per_pa: f32| -> Vec<f32> {
+            frame.pressure_pa.iter().map(|p| p * k_per_pa).collect()
+        };
+        let rises = [rise(1e-8), rise(2e-8), rise(5e-8)];
+        let [one, two, film] = rises;
+        (frame.surface_rise_k, frame.film_rise_k) = ([one, two], film);
+    });
+    let contents = recorded(&warm);
+    let last = shown(&warm[warm.len() - 1]);
+    for (name, field) in [
+        ("surface_1_rise", &last.surface_rise_k[0]),
+        ("surface_2_rise", &last.surface_rise_k[1]),
+        ("film_rise", &last.film_rise_k),
+    ] {
+        let entity = format!("kymograph/{name}_y0_K/image");
+        let top = contents.top(&entity);
+        let pictures = contents.values(&entity);
+        let (_, picture) = pictures.last_key_value().unwrap();
+        let row = &picture[picture.len() - last.nx..];
+        for (stored, exact) in row.iter().zip(last.centre_line(field)) {
+            let most = top.max(f64::from(*exact)) / 4096.0;
+            assert!(
+                (stored - f64::from(*exact)).abs() <= most,
+                "{name}: {stored} {exact}"
+            );
+        }
+        assert!(
+            contents.updates(&format!("maps/{name}_K/image")) > 0,
+            "{name}"
+        );
+    }
+    let cold = recorded(&frames(2)).entities();
+    assert!(
+        !cold.iter().any(|entity| entity.contains("rise")),
+        "{cold:?}"
+    );
+}

@@ -185,7 +185,7 @@ impl Page {
         match self {
             Self::Map(subject) => subject.title(),
             Self::CentreLine => "Pressure and film at y = 0",
-            Self::Profile => "Surfaces and oil at y = 0",
+            Self::Profile => "Surfaces and what is between them at y = 0",
             Self::Passage => "A point that passes",
             Self::Damage(0) => "Damage of body 1, log10 of the smooth contact's worst",
             Self::Damage(_) => "Damage of body 2, log10 of the smooth contact's worst",

@@ -118,7 +118,7 @@ impl Layout<'_> {
     /// Surfaces, oil and traces of the runs, and below each what it costs.
     fn passages(&mut self) -> ContainerLike {
         let upper = self.each(|views, shown, name| {
-            let title = format!("Both surfaces and the oil between them: {name}");
+            let title = format!("Both surfaces and the gap between them: {name}");
             Some(views.framed(&title, &[PROFILE, TRACE], shown.profile?))
         });
         let lower = self.each(|views, _, name| Some(views.document(name, LECTURE)));

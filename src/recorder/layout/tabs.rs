@@ -36,6 +36,7 @@ pub(crate) fn all(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
         tabs.push(life(views));
     }
     tabs.extend(damage_of_both(views, shown));
+    tabs.extend(heat(views, shown));
     tabs.extend(ageing(views, shown));
     tabs.push(scalars(views, shown));
     tabs.push(convergence(views));
@@ -86,7 +87,7 @@ fn tooth(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
 /// What moves and what that does: both surfaces with the oil between them, under them what the point that rides on one has
 /// felt; beside them the life in large type, and the pressure.
 fn passage(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
-    let title = "Both surfaces and the oil between them, along y = 0";
+    let title = "Both surfaces and the gap between them, along y = 0";
     let large = views.framed(title, &[PROFILE, TRACE], shown.profile?);
     let right = Vertical::new([
         views.document("What is seen", text::LECTURE),
@@ -100,6 +101,35 @@ fn passage(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
     ]);
     let both = Horizontal::new([large, right.into()]).with_column_shares(vec![1.9, 1.0]);
     Some(both.with_name("Passage").into())
+}
+
+/// How much warmer than the bulk surfaces and film are: seen from above, and along y = 0 against time.
+fn heat(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+    let mut all = Vec::new();
+    let maps = shown
+        .rises
+        .iter()
+        .filter(|_| shown.kind == ContactKind::Point);
+    for (entity, subject) in maps {
+        all.push(views.map(subject.title(), entity, &[], &shown.map));
+    }
+    let entities = [
+        kymograph::SURFACE_1,
+        kymograph::SURFACE_2,
+        kymograph::OIL_RISE,
+    ];
+    for ((_, subject), entity) in shown.rises.iter().zip(entities) {
+        let title = format!("{}, along y = 0 against time", subject.title());
+        all.push(views.plot(&title, &[entity], &shown.kymograph, Margin::Legend));
+    }
+    let greatest = by_itself().filter(|quantity| quantity.dimension == Dimension::Temperature);
+    for quantity in greatest.filter(|_| !shown.rises.is_empty()) {
+        let label = quantity.label(shown.kind);
+        all.push(views.single(&label, &entity(quantity, shown.kind)));
+    }
+    let has_any = !all.is_empty();
+    let grid = Grid::new(all).with_grid_columns(3).with_name("Heat");
+    has_any.then(|| grid.into())
 }
 
 /// What surfaces come to over loading cycles.
@@ -203,9 +233,6 @@ fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
         if rough {
             all.push(views.map(subject.title(), entity, &[], map));
         }
-    }
-    for (entity, subject) in shown.rises {
-        all.push(views.map(subject.title(), entity, &[], map));
     }
     all.extend(shear(views, shown));
     all.push(over_time(views, shown, true));
@@ -354,8 +381,8 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
         };
         all.push(views.named(title, &[YIELDED], &["body 1", "body 2"]));
     }
-    let known = by_itself()
-        .filter(|quantity| !shown.rises.is_empty() || quantity.dimension != Dimension::Temperature);
+    // What is of heat has a tab of its own.
+    let known = by_itself().filter(|quantity| quantity.dimension != Dimension::Temperature);
     for quantity in known {
         all.push(views.single(&quantity.label(kind), &entity(quantity, kind)));
     }

@@ -13,7 +13,10 @@ use super::error::SweepError;
 use super::path;
 use super::spec::Sweep;
 use asperity_engine::math::number::fixed;
-use asperity_engine::scene::{Event, Scene};
+use asperity_engine::scene::{Event, Record, Scene};
+
+/// Pictures of a ride, about: fifteen a second of the twenty in which a long recording is played.
+const PICTURES: f64 = 300.0;
 
 impl Sweep {
     /// The ride along a `[gear]` path; `None` for other sweeps.
@@ -77,7 +80,12 @@ impl Sweep {
             });
         }
         ride.time.passages = way_m / (4.0 * half_m) + 1.0;
-        ride.record = Some(asperity_engine::scene::Record::default());
+        // A domain is about 4 a long.
+        let steps = ride.time.passages * ride.grid.nodes as f64 / ride.time.step_nodes;
+        ride.record = Some(Record {
+            every_steps: (steps / PICTURES).ceil().max(1.0) as usize,
+            ..Record::default()
+        });
         ride.tooth = self.tooth;
         Ok(Some(ride))
     }

@@ -41,7 +41,7 @@ pub(super) fn exaggeration(app: &App, area: Rect) -> f64 {
 fn letter(matter: Matter) -> &'static str {
     match matter {
         Matter::Touching => "#",
-        Matter::Oil(_) => " ",
+        Matter::Oil(_) | Matter::Nothing => " ",
         Matter::Body(1, ..) => ":",
         Matter::Body(..) => "+",
     }
