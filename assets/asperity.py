@@ -63,14 +63,16 @@ def read(path):
     fields = {}
     for entity, name, unit, is_below in FIELDS:
         by_step = lambda component: sorted(rows.get((entity, component), []), key=lambda row: row[0])
-        # A list of one blob of bytes: halves, little-endian, or levels with how many of them are one unit.
-        pictures = by_step("buffer") or by_step("blob")
+        # A list of one blob of bytes: levels with how many of them are one unit, or halves, little-endian.
+        levels, halves = by_step("blob"), by_step("buffer")
+        pictures = levels or halves
         if not pictures:
             continue
         blobs = [bytes(cell[0].as_py()) for _, cell in pictures]
-        if per_unit := [cell[0].as_py() for _, cell in by_step("meter")]:
-            levels = [np.asarray(PIL.Image.open(io.BytesIO(blob)), dtype=np.float64) for blob in blobs]
-            stack = np.stack([picture / levels_of_one for picture, levels_of_one in zip(levels, per_unit)])
+        if levels:
+            per_unit = [cell[0].as_py() for _, cell in by_step("meter")]
+            decoded = [np.asarray(PIL.Image.open(io.BytesIO(blob)), dtype=np.float64) for blob in blobs]
+            stack = np.stack([picture / one for picture, one in zip(decoded, per_unit)])
         else:
             stack = np.stack([np.frombuffer(blob, dtype="<f2").reshape(-1, nx) for blob in blobs])
         stack = stack.astype(np.float64) * unit

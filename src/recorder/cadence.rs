@@ -119,6 +119,11 @@ impl Cadence {
         (self.limit - self.bytes - self.last).max(1e-3 * self.budget)
     }
 
+    /// Whether one more picture keeps the budget.
+    pub(crate) fn has_room(&self) -> bool {
+        self.bytes + self.last + self.frame() <= (1.0 - MARGIN) * self.budget
+    }
+
     /// Bytes of a frame's fields, on average.
     fn frame(&self) -> f64 {
         self.fields_bytes / self.recorded.max(1) as f64

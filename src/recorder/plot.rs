@@ -70,7 +70,7 @@ impl PlotBox {
             // Text keeps its size, so that a flat plot needs a larger share of its height for it.
             [
                 self.y[0] - (TITLES + 0.025) * h,
-                self.y[1] + if h < 0.65 * w { 0.32 } else { 0.22 } * h,
+                self.y[1] + if h < 0.65 * w { 0.35 } else { 0.26 } * h,
             ],
         ]
     }

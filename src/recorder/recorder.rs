@@ -43,6 +43,8 @@ pub struct Recorder {
     early: Vec<RunEvent>,
     program: String,
     last: Option<properties::Last>,
+    /// The last frame, where its fields were not recorded.
+    left_out: Option<Arc<Frame>>,
     /// Knobs turned so far.
     turns: u64,
     /// Steps that did not converge so far.
@@ -102,6 +104,7 @@ impl Recorder {
             early: Vec::new(),
             program: String::new(),
             last: None,
+            left_out: None,
             turns: 0,
             unconverged: 0,
             frames: 0,
@@ -111,8 +114,8 @@ impl Recorder {
         }
     }
 
-    /// Logs one frame.
-    fn log_frame(&mut self, frame: &Frame) -> Result<(), ObserveError> {
+    /// Logs one frame; whether its fields were due.
+    fn log_frame(&mut self, frame: &Frame) -> Result<bool, ObserveError> {
         let now = Moment::new(frame.step, frame.time_s, frame.passages);
         self.stream.set_time(now);
         let scene = self.scene.as_deref();
@@ -130,7 +133,7 @@ impl Recorder {
             self.views = Some(views);
         }
         let Some(views) = &mut self.views else {
-            return Ok(());
+            return Ok(false);
         };
         if !views.geometry.holds(frame) {
             return Err(ObserveError::new(
@@ -148,16 +151,26 @@ impl Recorder {
             views.series.follow(stream, frame);
         }
         views.follow(frame);
-        let before = stream.expected_bytes();
         if due.fields {
-            views.log(stream, self.scene.as_deref(), frame);
-            text::log_now(stream, frame, &self.caption, &views.above_ranges());
-            views.cadence.note_fields(stream.expected_bytes() - before);
+            log_fields(stream, views, self.scene.as_deref(), frame, &self.caption);
         }
         if let Some(note) = views.cadence.watch(frame.step, stream.expected_bytes()) {
             text::log_line(stream, &note, TextLogLevel::WARN);
         }
-        Ok(())
+        Ok(due.fields)
+    }
+
+    /// Logs the fields of the last step, so that a run's end is seen; not where the budget is spent.
+    fn log_left_out(&mut self) {
+        let (Some(frame), Some(window)) = (self.left_out.take(), &self.window) else {
+            return;
+        };
+        if let Some(views) = self.views.as_mut().filter(|views| views.cadence.has_room()) {
+            let now = Moment::new(frame.step, frame.time_s, frame.passages);
+            self.stream.set_time(now);
+            let (scene, frame) = (self.scene.as_deref(), window.cut(&frame));
+            log_fields(&self.stream, views, scene, &frame, &self.caption);
+        }
     }
 
     /// Logs what came before the first frame.
@@ -212,6 +225,20 @@ impl Recorder {
     }
 }
 
+/// Logs the fields of a frame and what stands beside them in words.
+fn log_fields(
+    stream: &Stream,
+    views: &mut RunViews,
+    scene: Option<&Scene>,
+    frame: &Frame,
+    caption: &str,
+) {
+    let before = stream.expected_bytes();
+    views.log(stream, scene, frame);
+    text::log_now(stream, frame, caption, &views.above_ranges());
+    views.cadence.note_fields(stream.expected_bytes() - before);
+}
+
 impl Observer for Recorder {
     fn begin(&mut self, context: &RunContext) -> Result<(), ObserveError> {
         self.scene = Some(Arc::clone(&context.scene));
@@ -232,7 +259,8 @@ impl Observer for Recorder {
             return Ok(());
         }
         self.passages = frame.passages;
-        self.log_frame(frame)?;
+        let is_whole = self.log_frame(frame)?;
+        self.left_out = (!is_whole).then(|| Arc::clone(frame));
         self.last = Some(properties::Last::of(frame));
         self.taken += 1;
         // The first at once: a recording that breaks off early has a picture.
@@ -287,6 +315,9 @@ impl Observer for Recorder {
             // A run without a frame still tells what happened.
             self.stream.set_time(Moment::new(0, 0.0, 0.0));
             self.log_early();
+        }
+        if !self.stream.is_gone() {
+            self.log_left_out();
         }
         if let Some(views) = &mut self.views
             && !self.stream.is_gone()

@@ -1,7 +1,7 @@
 """What becomes of a recording when things go wrong, with the release binary and the real reader.
 
     python3 -m venv venv && venv/bin/pip install rerun-sdk==0.36.3 numpy
-    venv/bin/python tests/safety/safety.py target/release/asperity [kill|disk|live|memory|memory129|cost|table|footer ...]
+    venv/bin/python tests/safety/safety.py target/release/asperity [kill|disk|live|memory|memory129|cost|table|fields|footer ...]
 
 kill    twenty runs ended by SIGKILL at random moments: every file opens and holds all but the last second
 disk    a full disk (a small tmpfs where that may be mounted) and a folder that may not be written: a clear
@@ -12,6 +12,7 @@ memory  twenty thousand steps of 65 nodes, recorded and not: resident memory aft
 memory129  the same with the nodes of the presets (five to ten minutes each)
 cost    the default scene with and without a recording in turns; ratio of the steps per second
 table   recorded h_min and life against the CSV of the same run, to rounding
+fields  what assets/asperity.py reads against the CSV: greatest pressure and least film of every picture
 footer  a run that is stopped and let go on a hundred times: the viewer's own tool finds nothing wrong with its file
 
 Moments and timings vary from run to run, which is why this is a script to look at and not a unit test; it
@@ -32,6 +33,9 @@ import time
 
 import numpy as np
 import rerun.experimental as rx
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "assets"))
+import asperity
 
 SMALL = ["--set", "grid.nodes=65", "--set", "numerics.error_estimate=none"]
 failures = []
@@ -208,6 +212,26 @@ def table(program, folder):
     check(np.allclose(*zip(*pairs), rtol=1e-6, atol=0), f"table: life of {len(pairs)} steps agrees to 1e-6")
 
 
+def fields(program, folder):
+    warm = ["--set", "heat.bulk_k=360", "--set", "heat.thermal_conductivity_w_mk=0.14"]
+    for name, scene in (("point", ["demonstration", *warm]), ("line", ["fzg_pitch_point"])):
+        out, path = folder / f"{name}.rrd", folder / f"{name}.csv"
+        done = run(program, *scene, *SMALL[:2], "--passages", "1", "--out", out, "--table", path)
+        check(done.returncode == 0, f"{name}: exit code {done.returncode} {done.stderr.strip()[:200]}")
+        rows = {int(row["step"]): row for row in csv.DictReader(path.open())}
+        read = asperity.read(out)
+        pressure, film = read.fields["pressure_pa"], read.fields["film_m"]
+        check(pressure.values.shape[1:] == (len(read.y_m), len(read.x_m)), f"{name}: {pressure.values.shape} as the axes")
+        check(pressure.step[-1] == max(rows), f"{name}: the last picture is of the last step, {max(rows)}")
+        of = lambda column, steps: np.array([float(rows[step][column]) for step in steps])
+        off = np.abs(pressure.values.max(axis=(1, 2)) / of("p_max_pa", pressure.step) - 1).max()
+        check(off < 3e-4, f"{name}: greatest pressure of {len(pressure.step)} pictures within {100 * off:.3f} %")
+        off = np.abs(film.values.min(axis=(1, 2)) - of("h_min_m", film.step)).max()
+        check(off < 6.2e-11, f"{name}: least film of {len(film.step)} pictures within {1e9 * off:.3f} nm")
+        check(("surface_rise_1_k" in read.fields) == (name == "point"), f"{name}: temperatures where there is heat")
+        check(np.isclose(read.scalars["life_relative"][-1], of("life_relative", [max(rows)])[0]), f"{name}: life")
+
+
 def footer(program, folder):
     """The clock goes on while the run stands: rows are sent in many more parts than on a quiet machine."""
     random.seed(2)
@@ -233,7 +257,7 @@ def footer(program, folder):
 
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
-    parts = {"kill": kill, "disk": disk, "live": live, "memory": memory, "memory129": memory129, "cost": cost, "table": table, "footer": footer}
+    parts = {"kill": kill, "disk": disk, "live": live, "memory": memory, "memory129": memory129, "cost": cost, "table": table, "fields": fields, "footer": footer}
     for name in sys.argv[2:] or [name for name in parts if name != "memory129"]:
         with tempfile.TemporaryDirectory() as folder:
             parts[name](program, pathlib.Path(folder))
