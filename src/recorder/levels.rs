@@ -100,7 +100,8 @@ pub(crate) fn values_of(png: &[u8], per_unit: f32, count: usize) -> Option<Vec<f
     let is_ours = info.color_type == png::ColorType::Grayscale
         && info.bit_depth == png::BitDepth::Sixteen
         && u64::from(info.width) * u64::from(info.height) == count as u64;
-    if !is_ours || !(per_unit > 0.0 && per_unit.is_finite()) {
+    let can_divide = per_unit > 0.0 && per_unit.is_finite();
+    if !(is_ours && can_divide) {
         return None;
     }
     let mut bytes = vec![0; 2 * count];

@@ -326,7 +326,7 @@ fn expected_steps(scene: Option<&Scene>, first: &Frame) -> f64 {
 /// 48 kB of a frame reach the disk at 129², 257² and on a line of 257 nodes.)
 pub(crate) fn frame_bytes(g: Geometry) -> u64 {
     let nodes = (g.nx * g.ny) as u64;
-    // Two maps in levels, which are compressed already, and one of a byte; of every second frame three maps of two bytes,
+    // Two maps in levels, which are compressed already, and one of a byte; of every second frame twice four: three maps,
     // the interferogram and another slice; the sheets of the 3-D view.
-    (3 + 1 + (6 + 2) / 2) * nodes + 100_000
+    (3 + 1 + 4) * nodes + 100_000
 }
