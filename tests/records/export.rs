@@ -79,6 +79,9 @@ fn pictures_are_drawn_of_every_map_and_of_the_centre_line() {
         "centre_line",
         "profile",
         "passage",
+        "pressure_over_time",
+        "film_over_time",
+        "life_over_time",
     ] {
         let file = folder.path().join(format!("step_000016_{name}.png"));
         let picture = std::fs::read(&file).unwrap();

@@ -11,6 +11,9 @@ On a machine without a graphics card the viewer draws in software; on Debian and
 `--sheet SHEET.png` puts every tab into one small picture too, as the `all_...` are: a recording, a size and a theme each.
 A tab's picture is taken when it differs from the tab before and two looks at it are the same.
 
+`--measure` takes no pictures: it prints the file's size, the seconds until the viewer shows the first tab filled, and the viewer's
+memory ten seconds later and after another twenty in which it plays.
+
 One picture per tab of the layout that the recording brings with it: `contact.png`, `maps.png`, ...
 The viewer follows the theme of the system; `--theme light` or `--theme dark` draws in its browser form with that theme
 asked for, which needs `pip install playwright` and Chromium (`--chromium PATH`).
@@ -50,6 +53,7 @@ def parse_arguments():
     parser.add_argument("--wait", type=float, default=15.0, help="seconds for loading (default: %(default)s)")
     parser.add_argument("--settle", type=float, default=4.0, help="seconds between two looks at a tab (default: %(default)s)")
     parser.add_argument("--patience", type=float, default=90.0, help="most seconds for a tab (default: %(default)s)")
+    parser.add_argument("--measure", action="store_true", help="time to the first picture and memory instead")
     parser.add_argument("--theme", choices=["light", "dark"], help="theme of the viewer in a browser (default: no browser)")
     parser.add_argument("--chromium", default="/usr/bin/chromium", help="browser for --theme (default: %(default)s)")
     return parser.parse_args()
@@ -129,7 +133,7 @@ def viewer(arguments, options):
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     process = subprocess.Popen([*command, arguments.recording], start_new_session=True, **quiet)
     try:
-        yield
+        yield process.pid
     finally:
         os.killpg(process.pid, signal.SIGTERM)
         process.wait()
@@ -230,6 +234,41 @@ def save_sheet(files, sheet):
     print(sheet, flush=True)
 
 
+def resident_mb(group):
+    """Resident memory of a group of processes, MB."""
+    pages = 0
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError, ValueError):
+            if os.getpgid(int(folder.name)) == group:
+                pages += int((folder / "statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def measure(arguments, url):
+    """Prints how heavy a recording is, and how soon and how large the viewer is with it."""
+    from PIL import Image
+
+    begun = time.monotonic()
+    with viewer(arguments, ["--headless", "--window-size", arguments.size]) as group:
+        client = connect(url, arguments.patience)
+        while time.monotonic() - begun < arguments.patience:
+            file = arguments.folder / "measured.png"
+            file.unlink(missing_ok=True)
+            client.save_screenshot(str(file.resolve()))
+            left = np.asarray(Image.open(io.BytesIO(written(file))).convert("RGB"))[:, : 400, :]
+            # The first tab has its largest picture at the left; before it is drawn there is one colour or two.
+            if len(np.unique(left.reshape(-1, 3) // 16, axis=0)) > 40:
+                break
+        shown = time.monotonic() - begun
+        memory = []
+        for seconds in (10, 20):
+            time.sleep(seconds)
+            memory.append(resident_mb(group))
+        file.unlink(missing_ok=True)
+    size = arguments.recording.stat().st_size / 1e6
+    print(f"{arguments.recording}: {size:.1f} MB, first picture after {shown:.1f} s, {memory[0]:.0f} MB resident, {memory[1]:.0f} MB when played")
+
+
 def main():
     arguments = parse_arguments()
     if rr.__version__ != VERSION:
@@ -237,6 +276,8 @@ def main():
     arguments.folder.mkdir(parents=True, exist_ok=True)
     application, chunks, root, tabs = layout(arguments.recording)
     url = f"rerun+http://127.0.0.1:{arguments.port}/proxy"
+    if arguments.measure:
+        return measure(arguments, url)
     shown = in_browser if arguments.theme else native
     files = []
     with shown(arguments, url) as save:

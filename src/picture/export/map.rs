@@ -10,14 +10,31 @@ pub(super) const HERTZ: Rgb = [150, 155, 165];
 
 /// Draws a map.
 pub(super) fn map(picture: &Picture, sheet: &Sheet, x_title: &str) -> Drawing {
-    let (mut drawing, plot) = sheet.begin(6.9, Sheet::height_to_scale(picture));
+    let y_title = if picture.is_below {
+        "depth z, mm"
+    } else {
+        "y, mm"
+    };
+    let height = Sheet::height_to_scale(picture);
+    drawn(picture, sheet, x_title, y_title, height)
+}
+
+/// Draws a field with that title of its rows, so high over its width.
+pub(super) fn drawn(
+    picture: &Picture,
+    sheet: &Sheet,
+    x_title: &str,
+    y_title: &str,
+    height: f64,
+) -> Drawing {
+    let (mut drawing, plot) = sheet.begin(6.9, height);
     drawing.field(sheet.field(plot, |pixels| field_pixels(picture, pixels)));
     let [x, [first, last]] = [picture.x, picture.y].map(|axis| axis.ends().map(|end| end * MM));
-    // Depths are drawn downwards.
-    let (y, y_title) = if picture.is_below {
-        ([last, first], "depth z, mm")
+    // Depths and times are drawn downwards.
+    let y = if picture.is_below {
+        [last, first]
     } else {
-        ([first, last], "y, mm")
+        [first, last]
     };
     let (x, y) = (Axis::linear(x, x_title), Axis::linear(y, y_title));
     if !picture.is_below {

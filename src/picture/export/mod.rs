@@ -9,6 +9,7 @@
 mod animation;
 mod centre_line;
 mod fields;
+mod history;
 mod map;
 mod npz;
 mod pages;

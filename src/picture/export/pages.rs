@@ -5,6 +5,7 @@
 use std::borrow::Cow;
 
 use super::centre_line::centre_line;
+use super::history::History;
 use super::map::map;
 use super::passage::{self, PointTrace};
 use super::profile::ProfilePage;
@@ -22,6 +23,7 @@ pub(super) struct Pictures {
     scope: Option<Scope>,
     window: Option<Window>,
     trace: PointTrace,
+    history: History,
 }
 
 impl Pictures {
@@ -32,6 +34,7 @@ impl Pictures {
             scope: None,
             window: None,
             trace: PointTrace::default(),
+            history: History::default(),
         }
     }
 
@@ -75,11 +78,13 @@ impl Pictures {
         let around = || Window::around(frame, Scope::of(scene, frame).to_come.size);
         let window = self.window.get_or_insert_with(around);
         self.trace.follow(frame);
-        if window.is_of(frame) {
+        let shown = if window.is_of(frame) {
             window.cut(frame)
         } else {
             frame.clone()
-        }
+        };
+        self.history.follow(&shown);
+        shown
     }
 
     /// The profile in the ranges that were asked for last.
@@ -124,6 +129,11 @@ impl Pictures {
                 let picture = Picture::of(frame, subject, &ranges);
                 picture.map(|picture| map(&picture, &sheet, x_title))
             }
+            Page::OverTime(subject) => {
+                let history = &self.history;
+                history.over_time(subject, frame, &ranges, &sheet, x_title)
+            }
+            Page::LifeOverTime => self.history.life(&sheet),
             Page::Damage(body) => {
                 let block = frame.damage[body].as_ref();
                 let picture = block.and_then(|block| damage(frame, block));
@@ -156,12 +166,16 @@ pub(super) enum Page {
     Profile,
     /// The same with what the followed point meets, and the life.
     Passage,
+    /// A field along y = 0 against time, up to the step.
+    OverTime(Subject),
+    /// The life with its band, up to the step.
+    LifeOverTime,
     /// Damage collected by a block of body 1 (0) or 2 (1).
     Damage(usize),
 }
 
 /// The pages and the names of their files.
-const PAGES: [(&str, Page); 16] = [
+const PAGES: [(&str, Page); 22] = [
     ("pressure", Page::Map(Subject::Pressure)),
     ("film", Page::Map(Subject::Film)),
     ("interferogram", Page::Map(Subject::Interferogram)),
@@ -176,6 +190,18 @@ const PAGES: [(&str, Page); 16] = [
     ("centre_line", Page::CentreLine),
     ("profile", Page::Profile),
     ("passage", Page::Passage),
+    ("pressure_over_time", Page::OverTime(Subject::Pressure)),
+    ("film_over_time", Page::OverTime(Subject::Film)),
+    (
+        "surface_rise_1_over_time",
+        Page::OverTime(Subject::Surface1),
+    ),
+    (
+        "surface_rise_2_over_time",
+        Page::OverTime(Subject::Surface2),
+    ),
+    ("film_rise_over_time", Page::OverTime(Subject::OilRise)),
+    ("life_over_time", Page::LifeOverTime),
     ("damage_1", Page::Damage(0)),
     ("damage_2", Page::Damage(1)),
 ];
@@ -183,6 +209,8 @@ const PAGES: [(&str, Page); 16] = [
 impl Page {
     fn title(self) -> &'static str {
         match self {
+            Self::OverTime(subject) => subject.title(),
+            Self::LifeOverTime => "Relative life, log10, with its band",
             Self::Map(subject) => subject.title(),
             Self::CentreLine => "Pressure and film at y = 0",
             Self::Profile => "Surfaces and what is between them at y = 0",
@@ -195,7 +223,8 @@ impl Page {
     fn x_title(self) -> &'static str {
         match self {
             Self::Damage(_) => "distance along the surface from a crest, mm",
-            Self::Map(_) | Self::CentreLine | Self::Profile | Self::Passage => {
+            Self::LifeOverTime => "time, ms",
+            Self::Map(_) | Self::CentreLine | Self::Profile | Self::Passage | Self::OverTime(_) => {
                 "x, mm (rolling direction to the right)"
             }
         }
@@ -206,6 +235,11 @@ impl Page {
         let subject = match self {
             Self::Map(subject) => subject,
             Self::CentreLine | Self::Profile | Self::Passage => return true,
+            Self::OverTime(subject) => return subject.field(frame).is_some(),
+            Self::LifeOverTime => {
+                let life = frame.metrics.life.as_ref();
+                return life.is_some_and(|life| life.life_relative_low > 0.0);
+            }
             Self::Damage(body) => {
                 let block = frame.damage[body].as_ref();
                 return block.is_some_and(|block| block.filled > 0);
