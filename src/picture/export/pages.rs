@@ -209,9 +209,8 @@ const PAGES: [(&str, Page); 22] = [
 impl Page {
     fn title(self) -> &'static str {
         match self {
-            Self::OverTime(subject) => subject.title(),
             Self::LifeOverTime => "Relative life, log10, with its band",
-            Self::Map(subject) => subject.title(),
+            Self::Map(subject) | Self::OverTime(subject) => subject.title(),
             Self::CentreLine => "Pressure and film at y = 0",
             Self::Profile => "Surfaces and what is between them at y = 0",
             Self::Passage => "A point that passes",
