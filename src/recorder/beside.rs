@@ -21,7 +21,7 @@ use self::keyed::{KeyedRun, less};
 use self::layout::RUNS;
 use super::colour::curve::{GREEN, SKY, VERMILION};
 use super::entities::series::{LIFE, POINT_CYCLES};
-use super::entities::{self, DIFFERENCE};
+use super::entities::{self, DIFFERENCE, SCALARS};
 use super::geometry::Geometry;
 use super::maps;
 use super::moment::Moment;
@@ -233,7 +233,9 @@ impl Written<'_> {
         let scene = &run.run.frames.scene;
         self.at(self.moments.first().copied().unwrap_or(0));
         let begin = self.picture(run, self.moments.first().copied().unwrap_or(0))?;
-        let keep = |entity: &str| SHARED.contains(&entity) || entity.starts_with("material_point/");
+        let keep = |entity: &str| {
+            SHARED.contains(&entity) || entity == SCALARS || entity.starts_with("material_point/")
+        };
         let series = Series::chosen(stream, begin.kind, keep);
         self.colour(name, run);
         let common = Common {

@@ -230,6 +230,18 @@ def fields(program, folder):
         check(off < 6.2e-11, f"{name}: least film of {len(film.step)} pictures within {1e9 * off:.3f} nm")
         check(("surface_rise_1_k" in read.fields) == (name == "point"), f"{name}: temperatures where there is heat")
         check(np.isclose(read.scalars["life_relative"][-1], of("life_relative", [max(rows)])[0]), f"{name}: life")
+    out = folder / "both.rrd"
+    done = run(program, "demonstration", *SMALL[:2], "--passages", "1", "--beside", "motion.slide_roll=0,0.5", "--out", out)
+    check(done.returncode == 0, f"beside: exit code {done.returncode} {done.stderr.strip()[:200]}")
+    runs = asperity.read(out).runs
+    for name, slide_roll in (("a", 0.0), ("b", 0.5)):
+        found = runs[name]
+        check(np.all(found.scalars["slide_roll"] == slide_roll), f"beside: S = {slide_roll} in run {name}")
+        greatest = found.fields["pressure_pa"].values.max(axis=(1, 2)).max()
+        off = abs(greatest / found.scalars["p_max_pa"].max() - 1)
+        check(off < 0.05, f"beside: greatest pressure of run {name} in pictures within {100 * off:.2f} % of that of all steps")
+        words = found.texts["lecture"][-1][1]
+        check(f"S = {slide_roll:g}" in words or f"S = {slide_roll:.3f}" in words, f"beside: the text of run {name} says its S")
 
 
 def footer(program, folder):
