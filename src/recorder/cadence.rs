@@ -25,6 +25,9 @@ const LATER_SCALARS_SHARE: f64 = 0.2;
 /// Part of the budget that is never planned with: the log's lines come when they come.
 const MARGIN: f64 = 0.02;
 
+/// What a picture may take beyond its own bytes (a chunk of 2.4 kB of each of some hundred entities).
+const UNSHARED: f64 = 2.5e5;
+
 /// What of a step is recorded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Due {
@@ -119,9 +122,11 @@ impl Cadence {
         (self.limit - self.bytes - self.last).max(1e-3 * self.budget)
     }
 
-    /// Whether one more picture keeps the budget.
+    /// Whether one more picture keeps the budget: where so few were recorded that their entities' first chunks are not
+    /// shared yet, it may take much more than the mean.
     pub(crate) fn has_room(&self) -> bool {
-        self.bytes + self.last + self.frame() <= (1.0 - MARGIN) * self.budget
+        let more = 2.0 * self.frame() + UNSHARED;
+        self.bytes + self.last + more <= (1.0 - MARGIN) * self.budget
     }
 
     /// Bytes of a frame's fields, on average.

@@ -278,6 +278,32 @@ impl Drawing {
         self
     }
 
+    /// Texts of which a part lies outside of the drawing.
+    #[cfg(test)]
+    pub(crate) fn cut_off(&self) -> Vec<&str> {
+        let is_cut = |text: &&Text| {
+            let em = self.font * text.size;
+            let long = text_width(&text.words) * em;
+            let before = text.anchor.share() * long;
+            let [x, y] = text.at;
+            // Letters reach .76 above their line and .24 below.
+            let ([left, right], [top, bottom]) = if text.is_turned {
+                (
+                    [x - 0.76 * em, x + 0.24 * em],
+                    [y - long + before, y + before],
+                )
+            } else {
+                (
+                    [x - before, x - before + long],
+                    [y - 0.76 * em, y + 0.24 * em],
+                )
+            };
+            left < 0.0 || right > self.size[0] || top < 0.0 || bottom > self.size[1]
+        };
+        let cut = self.texts.iter().filter(is_cut);
+        cut.map(|text| text.words.as_str()).collect()
+    }
+
     pub(crate) fn font(&self) -> f64 {
         self.font
     }

@@ -315,3 +315,63 @@ fn moving_state(frame: &Frame) -> String {
         plain(frame.metrics.slide_roll),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    #![expect(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use asperity_engine::plan::Plan;
+    use asperity_engine::scene::Override;
+    use asperity_engine::sim::Simulation;
+
+    /// A run's first steps and its pictures.
+    fn run(preset: &str) -> (Pictures, Frame) {
+        let sets = [
+            "grid.nodes=65",
+            "heat.bulk_k=360",
+            "heat.thermal_conductivity_w_mk=0.14",
+        ];
+        let sets: Vec<Override> = sets.iter().map(|set| set.parse().unwrap()).collect();
+        let scene = Scene::load_with(preset, &sets).unwrap();
+        let mut simulation = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
+        let (mut pictures, mut frame) = (Pictures::new(&scene), Frame::default());
+        let mut shown = Frame::default();
+        while simulation.passage_steps() < 40 {
+            simulation.step().unwrap();
+            simulation.fill(&mut frame);
+            if simulation.passage_steps() > 0 {
+                shown = pictures.shown(&frame);
+            }
+        }
+        (pictures, shown)
+    }
+
+    #[test]
+    fn no_word_is_cut_off() {
+        let print = |width_mm| {
+            SheetKind::Printed(PrintSize {
+                width_mm,
+                ..PrintSize::default()
+            })
+        };
+        let kinds = [
+            SheetKind::Still,
+            SheetKind::Moving { shared: false },
+            print(85.0),
+            print(170.0),
+        ];
+        let mut drawn = 0;
+        for preset in ["demonstration", "fzg_point_a"] {
+            let (mut pictures, shown) = run(preset);
+            for (name, page) in Pictures::pages(std::slice::from_ref(&shown), &[]) {
+                for kind in kinds {
+                    let drawing = pictures.draw(&shown, page, kind).unwrap();
+                    let cut = drawing.cut_off();
+                    assert!(cut.is_empty(), "{preset}, {name}, {kind:?}: {cut:?}");
+                    drawn += 1;
+                }
+            }
+        }
+        assert!(drawn > 100, "{drawn}");
+    }
+}

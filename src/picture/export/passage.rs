@@ -4,8 +4,8 @@
 use super::centre_line::PRESSURE;
 use super::profile::{HEIGHT, POINT, ProfilePage};
 use super::sheet::Sheet;
-use crate::draw::{Axis, Drawing, Rect, Rgb, Side, Text, TextAnchor};
-use asperity_engine::math::number::{GPA, MM, counted, sig};
+use crate::draw::{Axis, Drawing, Rect, Rgb, Side, Text, TextAnchor, text_width};
+use asperity_engine::math::number::{GPA, MM, counted, plain, sig};
 use asperity_engine::sim::{Frame, MaterialPoint};
 
 /// Room between the profile and the trace, and height of the trace, over the width.
@@ -100,8 +100,10 @@ pub(super) fn draw(
         drawing.dot([at_x, at_y], 0.35 * em, POINT);
     }
     if let Some(point) = &frame.material_point {
-        let words = Text::new([plot.left, plot.top - 0.5 * em], met(point));
-        drawing.text(words);
+        let room = (plot.wide + em) / em;
+        let fits = |words: &String| text_width(words) <= room;
+        let words = met(point).into_iter().find(fits).unwrap_or_default();
+        drawing.text(Text::new([plot.left, plot.top - 0.5 * em], words));
     }
     drawing.frame(plot);
     drawing.axis(plot, Side::Below, &x);
@@ -130,13 +132,18 @@ fn say_speeds(drawing: &mut Drawing, upper: Rect, frame: &Frame) {
     }
 }
 
-/// What the followed point has met, in words.
-fn met(point: &MaterialPoint) -> String {
-    let now = counted(point.cycles_counted as u64, "contact");
-    let before = point.cycles_before.map_or_else(String::new, |before| {
-        format!(", {} in the crossing before (grey)", sig(before, 3))
-    });
-    format!("a point of body {}: {now} so far{before}", point.body)
+/// What the followed point has met, in words: at length and where there is less room.
+fn met(point: &MaterialPoint) -> [String; 3] {
+    let (body, now) = (point.body, counted(point.cycles_counted as u64, "contact"));
+    let long = |before| format!(", {} in the crossing before (grey)", plain(before));
+    let short = |before| format!(", {} before (grey)", plain(before));
+    let before =
+        |words: &dyn Fn(f64) -> String| point.cycles_before.map_or_else(String::new, words);
+    [
+        format!("a point of body {body}: {now} so far{}", before(&long)),
+        format!("body {body}: {now} so far{}", before(&short)),
+        format!("body {body}: {now}"),
+    ]
 }
 
 /// The life in words, for the heading: what a picture without a word leaves open.
@@ -193,6 +200,6 @@ mod tests {
             (1, 3, 0)
         );
         let words = met(&frame(0.0, 1e9, 1.0).material_point.unwrap_or_default());
-        assert_eq!(words, "a point of body 2: 1 contact so far");
+        assert_eq!(words[0], "a point of body 2: 1 contact so far");
     }
 }

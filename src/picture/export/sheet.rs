@@ -2,7 +2,7 @@
 //! sized in mm, in one size of type, without a title.
 
 use crate::Picture;
-use crate::draw::{Drawing, PT_PER_MM, PixelField, Rect, SizeUnit, Text};
+use crate::draw::{Drawing, PT_PER_MM, PixelField, Rect, SizeUnit, Text, text_width};
 
 /// How a picture is printed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,8 +99,13 @@ impl Sheet {
         let size = [self.wide, plot.bottom() + (4.2 * em).round()];
         let mut drawing = Drawing::new(self.unit, size, em);
         if let Some(heading) = &self.heading {
-            drawing.text(Text::new([em, 1.9 * em], &*heading.title).sized(4.0 / 3.0));
+            // Smaller where it would be cut off.
+            let fitted =
+                |words: &str, size: f64| size.min((self.wide / em - 1.5) / text_width(words));
+            let title = Text::new([em, 1.9 * em], &*heading.title);
+            drawing.text(title.sized(fitted(&heading.title, 4.0 / 3.0)));
             let state = Text::new([em, 3.4 * em], &*heading.state);
+            let state = state.sized(fitted(&heading.state, 1.0));
             drawing.text(state.coloured([90, 95, 105]));
         }
         (drawing, plot)
