@@ -126,6 +126,10 @@ impl Outputs {
             return Ok(());
         };
         let recorder = Recorder::create(path, overwrite, record)?;
+        let recorder = match pace {
+            RecorderPace::Live => recorder.by_hand(),
+            RecorderPace::Headless => recorder,
+        };
         let written = recorder.path().unwrap_or_else(|| path.to_owned());
         let queue = Queue::spawn(
             "record",

@@ -13,6 +13,7 @@ use super::moment::Moment;
 use super::note::Note;
 use super::run_views::{self, RunViews};
 use super::series::Series;
+use super::shown::Knobs;
 use super::stream::Stream;
 use super::{properties, text};
 use asperity_engine::observe::{
@@ -35,6 +36,8 @@ pub struct Recorder {
     stream: Stream,
     record: Record,
     scene: Option<Arc<Scene>>,
+    /// Whether somebody may turn knobs while it runs.
+    by_hand: bool,
     /// What of its frames is recorded.
     window: Option<Window>,
     views: Option<RunViews>,
@@ -80,6 +83,13 @@ impl Recorder {
         Ok(Self::on(Stream::live(live)?, record))
     }
 
+    /// The same of a run whose knobs somebody may turn: it has curves of them.
+    #[must_use]
+    pub fn by_hand(mut self) -> Self {
+        self.by_hand = true;
+        self
+    }
+
     /// What goes on serving viewers when the recorder has finished, for as long as it is kept.
     pub fn server(&self) -> Server {
         Server {
@@ -98,6 +108,7 @@ impl Recorder {
             stream,
             record: record.clone(),
             scene: None,
+            by_hand: false,
             window: None,
             views: None,
             caption: String::new(),
@@ -128,7 +139,10 @@ impl Recorder {
             self.log_early();
             let series = Series::new(&self.stream, frame.kind);
             let scene = self.scene.as_deref();
-            let views = RunViews::new(&self.stream, &self.record, scene, frame, series, None)?;
+            let mut views = RunViews::new(&self.stream, &self.record, scene, frame, series, None)?;
+            if self.by_hand {
+                views.shown.knobs = Knobs::Turn;
+            }
             layout::send(&self.stream, &views.shown)?;
             self.views = Some(views);
         }

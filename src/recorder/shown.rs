@@ -7,12 +7,21 @@ use asperity_engine::scene::{ContactKind, Life, Scene};
 use asperity_engine::sim::Frame;
 use asperity_picture::{Scope, Subject};
 
+/// Whether S, speed or load change while a run is recorded: what rests is a number and no curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Knobs {
+    Rest,
+    /// By the script, or perhaps by hand.
+    Turn,
+}
+
 /// What the first frame tells the layout.
 pub(crate) struct ShownViews {
     /// Whether the run goes on while it is shown.
     pub(crate) live: bool,
     /// Simulated time over the time in which it is played; `None` where nothing moves.
     pub(crate) playback_speed: Option<f64>,
+    pub(crate) knobs: Knobs,
     pub(crate) kind: ContactKind,
     pub(crate) map: PlotBox,
     pub(crate) interferogram: PlotBox,
@@ -48,6 +57,10 @@ impl ShownViews {
         Self {
             live: false,
             playback_speed: None,
+            knobs: match scene {
+                Some(scene) if scene.events.is_empty() => Knobs::Rest,
+                _ => Knobs::Turn,
+            },
             kind: first.kind,
             map,
             interferogram: PlotBox::default(),

@@ -1223,6 +1223,52 @@ fn views_bring_their_own_background() {
     assert!(of("/PlotBackground").is_empty());
 }
 
+/// What rests while a run is recorded is a number and no curve; where the script or a hand turns it there is one.
+#[test]
+fn what_rests_is_no_plot() {
+    let folder = tempfile::tempdir().unwrap();
+    let titles = |name: &str, events: Vec<Event>, by_hand: bool| -> Vec<String> {
+        let path = folder.path().join(name);
+        let mut scene = synthetic::scene(NODES, 1.0);
+        scene.events = events;
+        let recorder = Recorder::create(&path, Overwrite::Refuse, &every_step()).unwrap();
+        let mut recorder = if by_hand {
+            recorder.by_hand()
+        } else {
+            recorder
+        };
+        recorder.begin(&synthetic::context(scene)).unwrap();
+        for frame in frames(2) {
+            recorder.frame(&frame).unwrap();
+        }
+        recorder.finish().unwrap();
+        let component = rerun::external::re_sdk_types::blueprint::archetypes::ViewBlueprint::descriptor_display_name();
+        let layout = Contents::read(&path).layout;
+        let names = layout.iter().flat_map(|chunk| {
+            let rows = chunk.iter_slices::<String>(component.component);
+            rows.flat_map(|row| row.iter().map(ToString::to_string).collect::<Vec<_>>())
+                .collect::<Vec<_>>()
+        });
+        names.collect()
+    };
+    let load = || vec![event("load.force_n", 900.0)];
+    for (name, events, by_hand, turns) in [
+        ("rests.rrd", Vec::new(), false, false),
+        ("script.rrd", load(), false, true),
+        ("hand.rrd", Vec::new(), true, true),
+    ] {
+        let titles = titles(name, events, by_hand);
+        assert!(
+            titles.iter().any(|title| title == "Friction coefficient"),
+            "{titles:?}"
+        );
+        for known in ["Load, N", "Motion", "Hertz half-width", "λ ratio"] {
+            let has = titles.iter().any(|title| title.starts_with(known));
+            assert_eq!(has, turns, "{name}: {known} in {titles:?}");
+        }
+    }
+}
+
 /// A disk without room for the first bytes is known before the run starts.
 #[cfg(target_os = "linux")]
 #[test]

@@ -14,7 +14,7 @@ use crate::entities::trace::TRACE;
 use crate::entities::{DAMAGE, kymograph, maps, slice, slice_over_log_depth, text, tooth};
 use crate::plot::Margin;
 use crate::series::{by_itself, entity};
-use crate::shown::ShownViews;
+use crate::shown::{Knobs, ShownViews};
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::Dimension;
 use asperity_picture::Subject;
@@ -33,7 +33,7 @@ pub(crate) fn all(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
         tabs.push(point(views, shown));
     }
     if shown.life {
-        tabs.push(life(views));
+        tabs.push(life(views, shown));
     }
     tabs.extend(damage_of_both(views, shown));
     tabs.extend(heat(views, shown));
@@ -291,7 +291,7 @@ fn point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     .into()
 }
 
-fn life(views: &mut Views) -> ContainerLike {
+fn life(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let left = Vertical::new([
         life_series(
             views,
@@ -314,10 +314,11 @@ fn life(views: &mut Views) -> ContainerLike {
         contacts(views, 2),
         views.single("Maximum effective stress, GPa", "series/stress_GPa"),
     ]);
-    let right = Vertical::new([
-        views.document("Now", text::NOW),
-        views.named("Motion", &["series/motion"], &["S", "its target", "U, m/s"]),
-    ]);
+    let mut right = vec![views.document("Now", text::NOW)];
+    if shown.knobs == Knobs::Turn {
+        right.push(views.named("Motion", &["series/motion"], &["S", "its target", "U, m/s"]));
+    }
+    let right = Vertical::new(right);
     Horizontal::new([left, middle, right].map(ContainerLike::from))
         .with_column_shares(vec![1.0, 0.9, 0.8])
         .with_name("Life")
@@ -362,18 +363,24 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
         ),
         views.named("Contact, %", &["series/contact_percent"], &["area", "load"]),
         views.single("Friction coefficient", "series/friction"),
-        match kind {
-            ContactKind::Point => views.named("Load, N", &["series/load_N"], &TARGET),
-            ContactKind::Line => views.named("Load, N/m", &["series/load_N_per_m"], &TARGET),
-        },
-        views.named(
-            "Hertz half-width, µm",
-            &["series/half_width_um"],
-            &["along x", "across"],
-        ),
-        views.single("λ ratio", "series/lambda_ratio"),
         views.single("Regime: 0 dry to 3 full film", "series/regime"),
     ];
+    if shown.knobs == Knobs::Turn {
+        let load = match kind {
+            ContactKind::Point => ("Load, N", "series/load_N"),
+            ContactKind::Line => ("Load, N/m", "series/load_N_per_m"),
+        };
+        let half_width = ["along x", "across"];
+        all.extend([
+            views.named(load.0, &[load.1], &TARGET),
+            views.named(
+                "Hertz half-width, µm",
+                &["series/half_width_um"],
+                &half_width,
+            ),
+            views.single("λ ratio", "series/lambda_ratio"),
+        ]);
+    }
     if shown.yields {
         let title = match kind {
             ContactKind::Point => "Yielded for good, µm³",
