@@ -136,14 +136,16 @@ impl Other {
         Ok(Self { frames, times_s })
     }
 
-    /// The picture nearest to a time.
+    /// The picture nearest to a time; `None` before its first and after its last by more than they are apart.
     fn nearest(&self, time_s: f64) -> Option<Frame> {
         let off = |(_, own): &&(u64, f64)| (own - time_s).abs();
         let nearest = self
             .times_s
             .iter()
-            .min_by(|one, two| off(one).total_cmp(&off(two)));
-        self.frames.frame(nearest?.0)
+            .min_by(|one, two| off(one).total_cmp(&off(two)))?;
+        let gaps = self.times_s.windows(2).map(|two| two[1].1 - two[0].1);
+        let apart = gaps.fold(0.0, f64::max);
+        (off(&nearest) <= apart).then(|| self.frames.frame(nearest.0))?
     }
 }
 

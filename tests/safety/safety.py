@@ -12,7 +12,8 @@ memory  twenty thousand steps of 65 nodes, recorded and not: resident memory aft
 memory129  the same with the nodes of the presets (five to ten minutes each)
 cost    the default scene with and without a recording in turns; ratio of the steps per second
 table   recorded h_min and life against the CSV of the same run, to rounding
-fields  what assets/asperity.py reads against the CSV: greatest pressure and least film of every picture
+fields  what assets/asperity.py reads against the CSV, of every preset, with heat, in rolling and side by side: greatest
+        pressure and least film of every picture
 footer  a run that is stopped and let go on a hundred times: the viewer's own tool finds nothing wrong with its file
 
 Moments and timings vary from run to run, which is why this is a script to look at and not a unit test; it
@@ -214,22 +215,33 @@ def table(program, folder):
 
 def fields(program, folder):
     warm = ["--set", "heat.bulk_k=360", "--set", "heat.thermal_conductivity_w_mk=0.14"]
-    for name, scene in (("point", ["demonstration", *warm]), ("line", ["fzg_pitch_point"])):
+    presets = re.findall(r"^([a-z_]+)  ", subprocess.run([program, "scenes"], capture_output=True, text=True).stdout, re.M)
+    scenes = [(name, [name]) for name in presets]
+    scenes += [("warm", ["demonstration", *warm]), ("rolling", ["demonstration", "--set", "motion.slide_roll=0"])]
+    for name, scene in scenes:
         out, path = folder / f"{name}.rrd", folder / f"{name}.csv"
-        done = run(program, *scene, *SMALL[:2], "--passages", "1", "--out", out, "--table", path)
+        # Short waves need nodes.
+        nodes = "257" if name.startswith("random") else "129" if name.startswith(("fzg", "cam")) else "65"
+        done = run(program, *scene, "--nodes", nodes, "--passages", "1", "--out", out, "--table", path)
         check(done.returncode == 0, f"{name}: exit code {done.returncode} {done.stderr.strip()[:200]}")
+        if done.returncode != 0:
+            continue
         rows = {int(row["step"]): row for row in csv.DictReader(path.open())}
         read = asperity.read(out)
         pressure, film = read.fields["pressure_pa"], read.fields["film_m"]
-        check(pressure.values.shape[1:] == (len(read.y_m), len(read.x_m)), f"{name}: {pressure.values.shape} as the axes")
-        check(pressure.step[-1] == max(rows), f"{name}: the last picture is of the last step, {max(rows)}")
+        alike = pressure.values.shape[1:] == (len(read.y_m), len(read.x_m)) and pressure.step[-1] == max(rows)
+        check(alike, f"{name}: {pressure.values.shape} as the axes, the last picture of the last step, {max(rows)}")
         of = lambda column, steps: np.array([float(rows[step][column]) for step in steps])
         off = np.abs(pressure.values.max(axis=(1, 2)) / of("p_max_pa", pressure.step) - 1).max()
         check(off < 3e-4, f"{name}: greatest pressure of {len(pressure.step)} pictures within {100 * off:.3f} %")
-        off = np.abs(film.values.min(axis=(1, 2)) - of("h_min_m", film.step)).max()
-        check(off < 6.2e-11, f"{name}: least film of {len(film.step)} pictures within {1e9 * off:.3f} nm")
-        check(("surface_rise_1_k" in read.fields) == (name == "point"), f"{name}: temperatures where there is heat")
-        check(np.isclose(read.scalars["life_relative"][-1], of("life_relative", [max(rows)])[0]), f"{name}: life")
+        # The table has the least film under pressure: where none is, it may be less. Half a level of ranges up to 4 um.
+        under = np.where(pressure.values > 0, film.values, np.inf).min(axis=(1, 2)) - of("h_min_m", film.step)
+        below = (film.values.min(axis=(1, 2)) - of("h_min_m", film.step)).max()
+        worst = max(-under.min(), below)
+        check(worst < 1.3e-10, f"{name}: least film of {len(film.step)} pictures within {1e9 * worst:.3f} nm")
+        check(("surface_rise_1_k" in read.fields) == (name == "warm"), f"{name}: temperatures where there is heat")
+        life = rows[max(rows)]["life_relative"]
+        check(not life or np.isclose(read.scalars["life_relative"][-1], float(life)), f"{name}: life {life}")
     out = folder / "both.rrd"
     done = run(program, "demonstration", *SMALL[:2], "--passages", "1", "--beside", "motion.slide_roll=0,0.5", "--out", out)
     check(done.returncode == 0, f"beside: exit code {done.returncode} {done.stderr.strip()[:200]}")
