@@ -166,7 +166,10 @@ impl Recorder {
         }
         views.follow(frame);
         if due.fields {
-            log_fields(stream, views, self.scene.as_deref(), frame, &self.caption);
+            let before = stream.expected_bytes();
+            views.log(stream, self.scene.as_deref(), frame);
+            text::log_now(stream, frame, &self.caption, &views.above_ranges());
+            views.cadence.note_fields(stream.expected_bytes() - before);
         }
         if let Some(note) = views.cadence.watch(frame.step, stream.expected_bytes()) {
             text::log_line(stream, &note, TextLogLevel::WARN);
@@ -174,7 +177,7 @@ impl Recorder {
         Ok(due.fields)
     }
 
-    /// Logs the fields of the last step, so that a run's end is seen; not where the budget is spent.
+    /// Logs the last step whole where its fields were not due, so that a run's end is seen; not where the budget is spent.
     fn log_left_out(&mut self) {
         let (Some(frame), Some(window)) = (self.left_out.take(), &self.window) else {
             return;
@@ -183,7 +186,8 @@ impl Recorder {
             let now = Moment::new(frame.step, frame.time_s, frame.passages);
             self.stream.set_time(now);
             let (scene, frame) = (self.scene.as_deref(), window.cut(&frame));
-            log_fields(&self.stream, views, scene, &frame, &self.caption);
+            views.log_whole(&self.stream, scene, &frame);
+            text::log_now(&self.stream, &frame, &self.caption, &views.above_ranges());
         }
     }
 
@@ -237,20 +241,6 @@ impl Recorder {
             .saturating_mul(self.views.as_ref().map_or(0, frame));
         self.stream.to().is_deaf(sent)
     }
-}
-
-/// Logs the fields of a frame and what stands beside them in words.
-fn log_fields(
-    stream: &Stream,
-    views: &mut RunViews,
-    scene: Option<&Scene>,
-    frame: &Frame,
-    caption: &str,
-) {
-    let before = stream.expected_bytes();
-    views.log(stream, scene, frame);
-    text::log_now(stream, frame, caption, &views.above_ranges());
-    views.cadence.note_fields(stream.expected_bytes() - before);
 }
 
 impl Observer for Recorder {

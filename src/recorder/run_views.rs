@@ -200,11 +200,20 @@ impl RunViews {
 
     /// The fields of a frame.
     pub(crate) fn log(&mut self, stream: &Stream, scene: Option<&Scene>, frame: &Frame) {
-        self.widen(stream, scene, frame);
         let is_seldom = self.pictures.is_multiple_of(SELDOM);
+        self.log_as(stream, scene, frame, is_seldom);
+    }
+
+    /// The same with what stands in every second picture.
+    pub(crate) fn log_whole(&mut self, stream: &Stream, scene: Option<&Scene>, frame: &Frame) {
+        self.log_as(stream, scene, frame, true);
+    }
+
+    fn log_as(&mut self, stream: &Stream, scene: Option<&Scene>, frame: &Frame, is_whole: bool) {
+        self.widen(stream, scene, frame);
         for view in &mut self.all {
             view.log(stream, frame);
-            if is_seldom {
+            if is_whole {
                 view.log_seldom(stream, frame);
             }
         }
