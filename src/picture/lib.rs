@@ -22,12 +22,16 @@ pub mod profile;
 pub mod ramp;
 mod scope;
 #[cfg(not(target_arch = "wasm32"))]
+mod trace;
+#[cfg(not(target_arch = "wasm32"))]
 mod window;
 
 use std::borrow::Cow;
 
 pub use ramp::Ramp;
 pub use scope::{Ranges, Scope, ToCome};
+#[cfg(not(target_arch = "wasm32"))]
+pub use trace::{PointTrace, TracePoint};
 #[cfg(not(target_arch = "wasm32"))]
 pub use window::Window;
 

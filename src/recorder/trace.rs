@@ -12,52 +12,15 @@ use super::view::View;
 use asperity_engine::math::number::{GPA, MM, counted, divisions, plain, sig, ticks};
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{Frame, MaterialPoint};
-use asperity_picture::Scope;
-
-/// Points kept of a crossing; when there are more every other one is dropped.
-const MOST_POINTS: usize = 1024;
+use asperity_picture::{PointTrace, Scope, TracePoint};
 
 /// The trace of the crossing that goes on, and the one before it.
 pub(crate) struct TraceEntity {
     plot: PlotBox,
     pressure_top_pa: f64,
-    body: u8,
-    last_x_m: f64,
-    pressure: Vec<[f32; 2]>,
-    effective: Vec<[f32; 2]>,
-    before: Vec<[f32; 2]>,
-    /// Whether `before` is in the recording as it is.
-    has_logged_before: bool,
-    peaks: CrossingPeaks,
-}
-
-/// The peaks of this crossing that have passed.
-#[derive(Debug, Default)]
-struct CrossingPeaks {
-    at: Vec<[f32; 2]>,
-    numbers: Vec<u32>,
-    /// How many are in the recording as they are.
-    logged: Option<usize>,
-}
-
-impl CrossingPeaks {
-    fn clear(&mut self) {
-        self.at.clear();
-        self.numbers.clear();
-        self.logged = None;
-    }
-
-    fn log(&mut self, stream: &Stream) {
-        if self.logged == Some(self.at.len()) {
-            return;
-        }
-        self.logged = Some(self.at.len());
-        let labels = self.numbers.iter().map(u32::to_string);
-        let points = Points2D::update_fields()
-            .with_positions(self.at.iter().copied())
-            .with_labels(labels);
-        stream.log(PEAKS, &points);
-    }
+    trace: PointTrace,
+    /// The crossing, and how many of its peaks, that are in the recording as they are.
+    logged: Option<(u64, usize)>,
 }
 
 impl TraceEntity {
@@ -100,27 +63,16 @@ impl TraceEntity {
         let mut this = Self {
             plot,
             pressure_top_pa,
-            body: 0,
-            last_x_m: f64::NEG_INFINITY,
-            pressure: Vec::new(),
-            effective: Vec::new(),
-            before: Vec::new(),
-            has_logged_before: false,
-            peaks: CrossingPeaks::default(),
+            trace: PointTrace::default(),
+            logged: None,
         };
         this.draw_to(stream, pressure_top_pa);
         this
     }
 
-    /// Draws the axes up to this top from now on, and to them what was drawn before.
+    /// Draws the axes up to this top from now on, and to them what is drawn.
     fn draw_to(&mut self, stream: &Stream, pressure_top_pa: f64) {
-        let share = (self.pressure_top_pa / pressure_top_pa) as f32;
-        self.pressure_top_pa = pressure_top_pa;
-        let curves = [&mut self.pressure, &mut self.effective, &mut self.before];
-        for [_, y] in curves.into_iter().flatten().chain(&mut self.peaks.at) {
-            *y *= share;
-        }
-        (self.has_logged_before, self.peaks.logged) = (false, None);
+        (self.pressure_top_pa, self.logged) = (pressure_top_pa, None);
         let (top, lower) = (GPA.of(pressure_top_pa), self.plot.y[0]);
         self.plot.left_ticks = ticks_at(&divisions(top), |p| lower * p / top);
         let axes = format!("{TRACE}/axes");
@@ -131,7 +83,28 @@ impl TraceEntity {
         &self.plot
     }
 
-    fn place(&self, x_m: f64, value_pa: f64) -> [f32; 2] {
+    /// Logs what of a curve is in the picture.
+    fn log_curve(&self, stream: &Stream, entity: &str, curve: &[TracePoint]) {
+        let inside = curve.iter().filter(|[x_m, _]| self.shows(*x_m));
+        let places: Vec<[f32; 2]> = inside.map(|at| self.place(*at)).collect();
+        Strips::of(&places).log(stream, entity);
+    }
+
+    fn log_peaks(&self, stream: &Stream) {
+        let peaks = self.trace.peaks.iter();
+        let points = Points2D::update_fields()
+            .with_positions(peaks.clone().map(|(_, at)| self.place(*at)))
+            .with_labels(peaks.map(|(number, _)| number.to_string()));
+        stream.log(PEAKS, &points);
+    }
+
+    /// Whether the picture reaches so far.
+    fn shows(&self, x_m: f64) -> bool {
+        let [left, right] = self.plot.x;
+        (left..=right).contains(&(x_m * MM))
+    }
+
+    fn place(&self, [x_m, value_pa]: TracePoint) -> [f32; 2] {
         let share = (value_pa / self.pressure_top_pa).min(1.0);
         [(x_m * MM) as f32, (self.plot.y[0] * share) as f32]
     }
@@ -143,42 +116,7 @@ impl View for TraceEntity {
     }
 
     fn follow_scalars(&mut self, frame: &Frame) {
-        let Some(point) = &frame.material_point else {
-            return;
-        };
-        // Bodies run towards +x or −x: the point that jumps has left and entered anew.
-        let jumped = (point.x_m - self.last_x_m).abs() > frame.a_m;
-        if point.body != self.body || jumped {
-            self.before = std::mem::take(&mut self.pressure);
-            self.has_logged_before = false;
-            self.effective.clear();
-            self.peaks.clear();
-        }
-        (self.body, self.last_x_m) = (point.body, point.x_m);
-        let number = point.cycles_counted as u32;
-        if let Some(peak) = point.last_peak
-            && self.peaks.numbers.last().is_none_or(|last| number > *last)
-        {
-            let at = self.place(peak.x_m, peak.pressure_pa);
-            self.peaks.at.push(at);
-            self.peaks.numbers.push(number);
-        }
-        let [left, right] = self.plot.x;
-        if (left..=right).contains(&(point.x_m * MM)) {
-            let at = self.place(point.x_m, point.pressure_pa);
-            self.pressure.push(at);
-            let at = self.place(point.x_m, point.effective_pa);
-            self.effective.push(at);
-        }
-        for trace in [&mut self.pressure, &mut self.effective] {
-            if trace.len() > MOST_POINTS {
-                let mut keep = false;
-                trace.retain(|_| {
-                    keep = !keep;
-                    keep
-                });
-            }
-        }
+        self.trace.follow(frame);
     }
 
     /// Logs the trace up to this frame.
@@ -186,12 +124,16 @@ impl View for TraceEntity {
         let Some(point) = &frame.material_point else {
             return;
         };
-        if !std::mem::replace(&mut self.has_logged_before, true) {
-            Strips::of(&self.before).log(stream, BEFORE);
+        let now = (self.trace.crossings, self.trace.peaks.len());
+        let before = self.logged.replace(now);
+        if before.map(|(crossings, _)| crossings) != Some(now.0) {
+            self.log_curve(stream, BEFORE, &self.trace.before);
         }
-        Strips::of(&self.pressure).log(stream, PRESSURE);
-        Strips::of(&self.effective).log(stream, EFFECTIVE);
-        self.peaks.log(stream);
+        if before != Some(now) {
+            self.log_peaks(stream);
+        }
+        self.log_curve(stream, PRESSURE, &self.trace.pressure);
+        self.log_curve(stream, EFFECTIVE, &self.trace.effective);
         let label = counts(point, frame);
         let [left, right] = self.plot.x;
         let label_at = [
@@ -199,8 +141,9 @@ impl View for TraceEntity {
             (0.97 * self.plot.y[0]) as f32,
         ];
         // Away from the contact it is not in the picture.
-        let is_inside = (left..=right).contains(&(point.x_m * MM));
-        let here = is_inside.then(|| self.place(point.x_m, point.pressure_pa));
+        let here = self
+            .shows(point.x_m)
+            .then(|| self.place([point.x_m, point.pressure_pa]));
         let now = Points2D::update_fields()
             .with_positions(std::iter::once(label_at).chain(here))
             .with_labels([label, String::new()]);

@@ -5,6 +5,7 @@ use super::centre_line::PRESSURE;
 use super::profile::{HEIGHT, POINT, ProfilePage};
 use super::sheet::Sheet;
 use crate::draw::{Axis, Drawing, Rect, Rgb, Side, Text, TextAnchor, text_width};
+use crate::{PointTrace, TracePoint};
 use asperity_engine::math::number::{GPA, MM, counted, plain, sig};
 use asperity_engine::sim::{Frame, MaterialPoint};
 
@@ -13,38 +14,6 @@ const BETWEEN: f64 = 0.08;
 const TRACE: f64 = 0.3;
 /// The crossing before.
 const BEFORE: Rgb = [150, 155, 165];
-
-/// Pressures that the followed point has met in its crossing, and in the one before: x, mm, and GPa.
-#[derive(Debug, Default)]
-pub(super) struct PointTrace {
-    body: u8,
-    last_x_m: f64,
-    now: Vec<(f64, f64)>,
-    before: Vec<(f64, f64)>,
-    peaks: Vec<(f64, f64)>,
-}
-
-impl PointTrace {
-    /// Takes up a step. A point that begins anew is far from where it was.
-    pub(super) fn follow(&mut self, frame: &Frame) {
-        let Some(point) = &frame.material_point else {
-            return;
-        };
-        if point.body != self.body || (point.x_m - self.last_x_m).abs() > frame.a_m {
-            self.before = std::mem::take(&mut self.now);
-            self.peaks.clear();
-        }
-        (self.body, self.last_x_m) = (point.body, point.x_m);
-        let place = |x_m: f64, pressure_pa: f64| (x_m * MM, GPA.of(pressure_pa));
-        self.now.push(place(point.x_m, point.pressure_pa));
-        let peak = point
-            .last_peak
-            .map(|peak| place(peak.x_m, peak.pressure_pa));
-        let counted = point.cycles_counted as usize;
-        self.peaks
-            .extend(peak.filter(|_| counted > self.peaks.len()));
-    }
-}
 
 /// Draws it.
 pub(super) fn draw(
@@ -70,27 +39,29 @@ pub(super) fn draw(
     let x = Axis::linear(profile.x_mm(), x_title);
     let y = Axis::linear([0.0, GPA.of(pressure_pa)], "p, GPa");
     drawing.grid(plot, &x, &y);
-    let inside = |at: &(f64, f64)| (x.ends[0]..=x.ends[1]).contains(&at.0);
-    let place = |at: &(f64, f64)| plot.at(x.share(at.0), y.share(at.1.min(y.ends[1])));
+    let inside = |[at_m, _]: &TracePoint| (x.ends[0]..=x.ends[1]).contains(&(at_m * MM));
+    let place = |[at_m, pa]: &TracePoint| {
+        let (at, p) = (at_m * MM, GPA.of(*pa).min(y.ends[1]));
+        plot.at(x.share(at), y.share(p))
+    };
     let width = drawing.unit().curve();
     for (curve, colour, wide) in [
         (&trace.before, BEFORE, 0.7 * width),
-        (&trace.now, PRESSURE, 1.5 * width),
+        (&trace.pressure, PRESSURE, 1.5 * width),
     ] {
         let points = curve.iter().filter(|at| inside(at)).map(place);
         drawing.line(points.collect(), colour, wide);
     }
     let em = drawing.font();
-    for (number, peak) in trace.peaks.iter().filter(|at| inside(at)).enumerate() {
+    for (number, peak) in trace.peaks.iter().filter(|(_, at)| inside(at)) {
         let [at_x, at_y] = place(peak);
         drawing.dot([at_x, at_y], 0.25 * em, PRESSURE);
-        let label = Text::new([at_x, at_y - 0.5 * em], (number + 1).to_string());
+        let label = Text::new([at_x, at_y - 0.5 * em], number.to_string());
         drawing.text(label.anchored(TextAnchor::Middle).coloured(PRESSURE));
     }
-    let here = trace
-        .now
-        .last()
-        .filter(|at| inside(at) && frame.material_point.is_some());
+    let has_point = frame.material_point.is_some();
+    let here = trace.pressure.last();
+    let here = here.filter(|at| inside(at) && has_point);
     if let Some(here) = here {
         let [at_x, at_y] = place(here);
         if let Some([along, down]) = profile.point() {
@@ -162,44 +133,17 @@ pub(super) fn life(frame: &Frame) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_engine::sim::PassedPeak;
-
-    fn frame(x_m: f64, pressure_pa: f64, counted: f64) -> Frame {
-        Frame {
-            a_m: 1e-3,
-            material_point: Some(MaterialPoint {
-                body: 2,
-                x_m,
-                pressure_pa,
-                cycles_counted: counted,
-                last_peak: (counted > 0.0).then_some(PassedPeak {
-                    x_m: -2e-4,
-                    pressure_pa: 2e9,
-                }),
-                ..MaterialPoint::default()
-            }),
-            ..Frame::default()
-        }
-    }
 
     #[test]
-    fn a_trace_has_a_crossing_its_peaks_once_and_the_crossing_before() {
-        let mut trace = PointTrace::default();
-        for (x_m, pressure_pa, counted) in
-            [(-4e-4, 1e9, 0.0), (-1e-4, 1.5e9, 1.0), (2e-4, 1e9, 1.0)]
-        {
-            trace.follow(&frame(x_m, pressure_pa, counted));
-        }
-        assert_eq!(trace.now, [(-0.4, 1.0), (-0.1, 1.5), (0.2, 1.0)]);
-        assert_eq!(trace.peaks, [(-0.2, 2.0)]);
-        assert!(trace.before.is_empty());
-        // It begins anew.
-        trace.follow(&frame(-1.2e-3, 0.0, 0.0));
-        assert_eq!(
-            (trace.now.len(), trace.before.len(), trace.peaks.len()),
-            (1, 3, 0)
-        );
-        let words = met(&frame(0.0, 1e9, 1.0).material_point.unwrap_or_default());
-        assert_eq!(words[0], "a point of body 2: 1 contact so far");
+    fn what_a_point_has_met_is_said_at_length_and_shortly() {
+        let mut point = MaterialPoint {
+            body: 2,
+            cycles_counted: 1.0,
+            ..MaterialPoint::default()
+        };
+        assert_eq!(met(&point)[0], "a point of body 2: 1 contact so far");
+        point.cycles_before = Some(3.0);
+        assert_eq!(met(&point)[1], "body 2: 1 contact so far, 3 before (grey)");
+        assert_eq!(met(&point)[2], "body 2: 1 contact");
     }
 }
