@@ -103,9 +103,12 @@ impl Outputs {
                 )));
             }
             let export = Export::create(folder, overwrite, &args.export_as)?;
+            let export = export.every(args.export_every);
             let name = folder.display().to_string();
             let queue = Queue::spawn("export", FILES_WAITING, pace.when_full(), Box::new(export))?;
-            let every = args.export_every;
+            // Pictures show what the point has met in the steps between.
+            let draws = args.export_as.iter().any(|format| format.is_drawn());
+            let every = if draws { 1 } else { args.export_every };
             outputs
                 .watchers
                 .push(Watcher::new(name, Box::new(queue), every));

@@ -58,6 +58,37 @@ fn a_folder_with_somebodys_files_is_refused() {
     assert!(Export::create(&file.join("below"), Overwrite::Refuse, &[Format::Npz]).is_err());
 }
 
+/// Of a run pictures show what was between the steps that are drawn; arrays are of those steps alone.
+#[test]
+fn steps_between_are_in_the_pictures_and_write_nothing() {
+    let drawn = |every: u64, given: u64| {
+        let folder = tempfile::tempdir().unwrap();
+        let formats = [Format::Png, Format::Npz];
+        let export = Export::create(folder.path(), Overwrite::Refuse, &formats).unwrap();
+        let mut export = export.every(every);
+        export
+            .begin(&synthetic::context(synthetic::scene(NODES, 1.0)))
+            .unwrap();
+        for step in (given..=16).step_by(given as usize) {
+            export.frame(&synthetic::frame(NODES, step)).unwrap();
+        }
+        assert_eq!(export.kept(), Some(16 / every.max(given)));
+        export.finish().unwrap();
+        let read = |name: &str| std::fs::read(folder.path().join(format!("step_000016{name}")));
+        [
+            "_pressure.png",
+            ".npz",
+            "_passage.png",
+            "_pressure_over_time.png",
+        ]
+        .map(|name| read(name).unwrap())
+    };
+    let [all, some] = [drawn(8, 1), drawn(8, 8)];
+    // The same map and the same arrays, and a trace and rows of sixteen steps in place of two.
+    assert_eq!(all[..2], some[..2]);
+    assert!(all[2] != some[2] && all[3] != some[3]);
+}
+
 #[test]
 fn pictures_are_drawn_of_every_map_and_of_the_centre_line() {
     let folder = tempfile::tempdir().unwrap();

@@ -82,6 +82,11 @@ impl Format {
         }
     }
 
+    /// Whether it shows pictures.
+    pub fn is_drawn(self) -> bool {
+        matches!(self.kind(), FormatKind::Pictures | FormatKind::Moving)
+    }
+
     fn kind(self) -> FormatKind {
         match self {
             Self::Npz | Self::Vti => FormatKind::Fields,
@@ -113,6 +118,8 @@ pub struct Export {
     /// Pictures that are drawn; empty: all, or of those that move the one that tells most.
     chosen: Vec<String>,
     print: PrintSize,
+    /// Of the steps that it is given it writes those that are multiples.
+    every: u64,
     moving: BTreeMap<&'static str, Animation>,
     frames: u64,
     bytes: u64,
@@ -160,6 +167,7 @@ impl Export {
             pictures: vec![Pictures::default()],
             chosen: Vec::new(),
             print: PrintSize::default(),
+            every: 1,
             moving: BTreeMap::new(),
             frames: 0,
             bytes: 0,
@@ -177,6 +185,14 @@ impl Export {
     #[must_use]
     pub fn of(mut self, chosen: &[String], print: PrintSize) -> Self {
         (self.chosen, self.print) = (chosen.to_vec(), print);
+        self
+    }
+
+    /// Writes every n-th step only; where it [draws](Format::is_drawn) it should be given all of them, for what pictures show
+    /// of the steps between.
+    #[must_use]
+    pub fn every(mut self, steps: u64) -> Self {
+        self.every = steps.max(1);
         self
     }
 
@@ -208,10 +224,9 @@ impl Export {
             self.share_ranges(frames);
         }
         let print = SheetKind::Printed(self.print);
-        let drawn = |format: &Format| !matches!(format, Format::Npz | Format::Vti | Format::Csv);
         // Arrays hold all of a frame.
         let mut shown = Vec::new();
-        if self.formats.iter().any(drawn) {
+        if self.draws() {
             let pairs = self.pictures.iter_mut().zip(frames);
             shown.extend(pairs.map(|(pictures, frame)| pictures.shown(frame)));
         }
@@ -230,6 +245,10 @@ impl Export {
         }
         self.frames += 1;
         Ok(())
+    }
+
+    fn draws(&self) -> bool {
+        self.formats.iter().any(|format| format.is_drawn())
     }
 
     /// Gives runs that stand beside each other the same ranges.
@@ -409,10 +428,19 @@ impl Observer for Export {
     }
 
     fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
-        if frame.stage == Stage::Passage {
+        if frame.stage != Stage::Passage {
+            return Ok(());
+        }
+        if frame.step.is_multiple_of(self.every) {
             self.take(frame, true)?;
+        } else if self.draws() {
+            self.pictures[0].shown(frame);
         }
         Ok(())
+    }
+
+    fn kept(&self) -> Option<u64> {
+        Some(self.frames)
     }
 
     fn event(&mut self, _event: &RunEvent) -> Result<(), ObserveError> {
