@@ -144,6 +144,7 @@ Examples:
   asperity export passage.rrd                              the passage as an animation (GIF)
   asperity export rolling.rrd --beside sliding.rrd         two of them side by side
   asperity export passage.rrd --as png,npz --every 32      pictures and fields of every 32nd step
+  asperity export passage.rrd --as npz-series,vti --every 1  fields with a time axis, for numpy and ParaView
   asperity export passage.rrd --as svg,pdf --show pressure,centre_line --width-mm 85
   asperity export passage.rrd --as csv                     every scalar of every step
 

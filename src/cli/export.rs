@@ -9,7 +9,7 @@ use std::{
 use asperity_engine::math::number::{bytes, counted, seconds};
 use asperity_engine::observe::{Observer as _, Overwrite, RunContext};
 use asperity_engine::sim::Frame;
-use asperity_picture::export::{Export, Format, PrintSize};
+use asperity_picture::export::{Export, Format, PrintSize, TakenAs};
 use asperity_recorder::RecordedFrames;
 use asperity_session::Table;
 
@@ -97,11 +97,14 @@ fn pictures(
     };
     let mut next = 0;
     for step in shown {
-        let as_still = match args.every {
-            None => Some(&step) == one,
-            Some(_) => step >= next && whole.binary_search(&step).is_ok(),
+        let is_whole = whole.binary_search(&step).is_ok();
+        let taken = match args.every {
+            None if Some(&step) == one => TakenAs::Still,
+            None if args.step.is_none() && is_whole => TakenAs::InSeries,
+            Some(_) if is_whole && step >= next => TakenAs::Still,
+            _ => TakenAs::Moving,
         };
-        if let Some(every) = args.every.filter(|_| as_still) {
+        if let Some(every) = args.every.filter(|_| taken == TakenAs::Still) {
             next = step + every;
         }
         let Some(frame) = frames.frame(step) else {
@@ -112,7 +115,7 @@ fn pictures(
             continue;
         };
         let all: Vec<&Frame> = std::iter::once(&frame).chain(&others).collect();
-        export.take_all(&all, as_still)?;
+        export.take_all(&all, taken)?;
     }
     Ok(export.finish()?.bytes)
 }

@@ -137,7 +137,7 @@ mod from_a_recording {
     use asperity_engine::scene::{Record, Scene};
     use asperity_engine::sim::Frame;
     use asperity_picture::Window;
-    use asperity_picture::export::{Export, Format, PrintSize};
+    use asperity_picture::export::{Export, Format, PrintSize, TakenAs};
     use asperity_recorder::{RecordedFrames, Recorder};
     use asperity_session::Table;
 
@@ -189,7 +189,7 @@ mod from_a_recording {
         let mut export = export.of(&chosen, PrintSize::default());
         export.begin(&context()).unwrap();
         for frame in frames {
-            export.take(frame, true).unwrap();
+            export.take(frame, TakenAs::Still).unwrap();
         }
         export.finish().unwrap().bytes
     }
@@ -280,7 +280,7 @@ mod from_a_recording {
             for (k, frame) in frames.iter().enumerate() {
                 let others = others.iter().map(|run| &run[k]);
                 let all: Vec<&Frame> = std::iter::once(&**frame).chain(others).collect();
-                export.take_all(&all, true).unwrap();
+                export.take_all(&all, TakenAs::Still).unwrap();
             }
             export.finish().unwrap();
             assert!(out.join("passage.gif").exists());

@@ -13,7 +13,23 @@ pub(super) enum ArrayValues<'a> {
     U8(&'a [u8]),
 }
 
+/// What kind of numbers an array has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum NumberKind {
+    F32,
+    F64,
+    U8,
+}
+
 impl ArrayValues<'_> {
+    pub(super) fn kind(&self) -> NumberKind {
+        match self {
+            Self::F32(_) => NumberKind::F32,
+            Self::F64(_) => NumberKind::F64,
+            Self::U8(_) => NumberKind::U8,
+        }
+    }
+
     pub(super) fn len(&self) -> usize {
         match self {
             Self::F32(all) => all.len(),
@@ -39,16 +55,23 @@ pub(super) struct FieldArray<'a> {
     pub(super) values: ArrayValues<'a>,
 }
 
+impl FieldArray<'_> {
+    /// A single number.
+    pub(super) fn number(name: &'static str, value: f64) -> Self {
+        Self {
+            name,
+            axes: &[],
+            values: ArrayValues::F64(vec![value].into()),
+        }
+    }
+}
+
 /// All arrays of a frame: every scalar that is known, the nodes, the fields, the slice.
 pub(super) fn arrays(frame: &Frame) -> Vec<FieldArray<'_>> {
     let array = |name, axes, values| FieldArray { name, axes, values };
     let known = CATALOGUE.iter().filter_map(|quantity| {
         let value = quantity.number(frame)?;
-        Some(array(
-            quantity.name,
-            &[],
-            ArrayValues::F64(vec![value].into()),
-        ))
+        Some(FieldArray::number(quantity.name, value))
     });
     let mut all: Vec<FieldArray> = known.collect();
     let nodes = |n: usize, first: f64, step: f64| {
@@ -102,7 +125,7 @@ pub(super) fn arrays(frame: &Frame) -> Vec<FieldArray<'_>> {
 }
 
 /// Length of an axis in a frame.
-fn length(frame: &Frame, axis: &str) -> usize {
+pub(super) fn length(frame: &Frame, axis: &str) -> usize {
     match axis {
         "x" => frame.nx,
         "y" => frame.ny,

@@ -15,6 +15,7 @@ mod npz;
 mod pages;
 mod passage;
 mod profile;
+mod series;
 mod sheet;
 mod vtk;
 
@@ -29,6 +30,7 @@ use clap::ValueEnum as _;
 use self::animation::Animation;
 use self::fields::write_npz;
 use self::pages::{Page, Pictures, SheetKind};
+use self::series::Series;
 pub use self::sheet::PrintSize;
 use crate::draw::Drawing;
 use asperity_engine::observe::{
@@ -42,6 +44,8 @@ use asperity_engine::sim::{Frame, Stage};
 pub enum Format {
     /// Fields as numpy archives
     Npz,
+    /// Fields of all steps in one numpy archive, with a time axis
+    NpzSeries,
     /// Fields for ParaView, and what else reads VTK
     Vti,
     /// Maps and centre line as pictures
@@ -61,6 +65,8 @@ pub enum Format {
 enum FormatKind {
     /// A file of arrays each.
     Fields,
+    /// A file of arrays of all.
+    Series,
     /// A file for each picture of each.
     Pictures,
     /// A file for each picture of all.
@@ -72,7 +78,7 @@ enum FormatKind {
 impl Format {
     fn ending(self) -> &'static str {
         match self {
-            Self::Npz => "npz",
+            Self::Npz | Self::NpzSeries => "npz",
             Self::Vti => "vti",
             Self::Png => "png",
             Self::Svg => "svg",
@@ -90,11 +96,23 @@ impl Format {
     fn kind(self) -> FormatKind {
         match self {
             Self::Npz | Self::Vti => FormatKind::Fields,
+            Self::NpzSeries => FormatKind::Series,
             Self::Png | Self::Svg | Self::Pdf => FormatKind::Pictures,
             Self::Gif => FormatKind::Moving,
             Self::Csv => FormatKind::Table,
         }
     }
+}
+
+/// What becomes of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum TakenAs {
+    /// A picture of those that move, and what later pictures show of what has been.
+    Moving,
+    /// That, and a part of what has a time axis.
+    InSeries,
+    /// That, and files of its own.
+    Still,
 }
 
 /// Names of the pictures that there are.
@@ -121,6 +139,9 @@ pub struct Export {
     /// Of the steps that it is given it writes those that are multiples.
     every: u64,
     moving: BTreeMap<&'static str, Animation>,
+    series: Series,
+    /// Time, s, and file of each step for ParaView: of the surface and of the plane below.
+    lists: [Vec<(f64, String)>; 2],
     frames: u64,
     bytes: u64,
 }
@@ -169,6 +190,8 @@ impl Export {
             print: PrintSize::default(),
             every: 1,
             moving: BTreeMap::new(),
+            series: Series::default(),
+            lists: Default::default(),
             frames: 0,
             bytes: 0,
         })
@@ -203,19 +226,19 @@ impl Export {
         self
     }
 
-    /// Takes a step up: as a still where that is wanted, and for the pictures that move.
+    /// Takes a step up.
     ///
     /// # Errors
     /// When a file cannot be written.
-    pub fn take(&mut self, frame: &Frame, as_still: bool) -> Result<(), ObserveError> {
-        self.take_all(&[frame], as_still)
+    pub fn take(&mut self, frame: &Frame, taken: TakenAs) -> Result<(), ObserveError> {
+        self.take_all(&[frame], taken)
     }
 
     /// The same of all runs that stand beside each other; arrays are those of the first.
     ///
     /// # Errors
     /// When a file cannot be written.
-    pub fn take_all(&mut self, frames: &[&Frame], as_still: bool) -> Result<(), ObserveError> {
+    pub fn take_all(&mut self, frames: &[&Frame], taken: TakenAs) -> Result<(), ObserveError> {
         let Some(&frame) = frames.first() else {
             return Ok(());
         };
@@ -233,14 +256,19 @@ impl Export {
         if self.formats.contains(&Format::Gif) {
             self.follow(&shown)?;
         }
-        for format in self.formats.clone().into_iter().filter(|_| as_still) {
+        if taken >= TakenAs::InSeries && self.formats.contains(&Format::NpzSeries) {
+            let took = self.series.take(frame, &self.folder);
+            took.map_err(|error| self.failed(&error))?;
+        }
+        let is_still = taken == TakenAs::Still;
+        for format in self.formats.clone().into_iter().filter(|_| is_still) {
             self.bytes += match format {
                 Format::Npz => self.write(frame, NPZ, &|out| write_npz(out, frame))?,
                 Format::Vti => self.write_vtk(frame)?,
                 Format::Png => self.draw(&shown, format, SheetKind::Still, Drawing::png)?,
                 Format::Svg => self.draw(&shown, format, print, Drawing::svg)?,
                 Format::Pdf => self.draw(&shown, format, print, Drawing::pdf)?,
-                Format::Gif | Format::Csv => 0,
+                Format::NpzSeries | Format::Gif | Format::Csv => 0,
             };
         }
         self.frames += 1;
@@ -341,19 +369,41 @@ impl Export {
         ending: &str,
         by: &dyn Fn(BufWriter<File>) -> Result<u64, Error>,
     ) -> Result<u64, ObserveError> {
-        let file = self.folder.join(format!("step_{:06}{ending}", frame.step));
+        let file = self.folder.join(step_file(frame.step, ending));
         let write = |at: &Path| by(BufWriter::new(File::create(at)?));
         self.overwrite.write_by(&file, write)
     }
 
     /// Writes the arrays of a step for VTK; the bytes written.
-    fn write_vtk(&self, frame: &Frame) -> Result<u64, ObserveError> {
-        let surface = self.write(frame, VTI, &|out| vtk::write_surface(out, frame))?;
-        let slice = match &frame.slice {
-            Some(slice) => self.write(frame, VTR, &|out| vtk::write_slice(out, frame, slice))?,
-            None => 0,
-        };
-        Ok(surface + slice)
+    fn write_vtk(&mut self, frame: &Frame) -> Result<u64, ObserveError> {
+        let listed = |ending: &str| (frame.time_s, step_file(frame.step, ending));
+        let mut bytes = self.write(frame, VTI, &|out| vtk::write_surface(out, frame))?;
+        self.lists[0].push(listed(VTI));
+        if let Some(slice) = &frame.slice {
+            bytes += self.write(frame, VTR, &|out| vtk::write_slice(out, frame, slice))?;
+            self.lists[1].push(listed(VTR));
+        }
+        Ok(bytes)
+    }
+
+    /// Writes what has a time axis.
+    fn write_series(&mut self) -> Result<(), ObserveError> {
+        for (name, files) in LISTS.into_iter().zip(std::mem::take(&mut self.lists)) {
+            if !files.is_empty() {
+                let list = series::pvd(&files);
+                self.bytes += list.len() as u64;
+                self.overwrite
+                    .write(&self.folder.join(name), list.as_bytes())?;
+            }
+        }
+        let series = std::mem::take(&mut self.series);
+        if !series.is_empty() {
+            let file = self.folder.join(SERIES);
+            self.bytes += self
+                .overwrite
+                .write_by(&file, |at| series.write(BufWriter::new(File::create(at)?)))?;
+        }
+        Ok(())
     }
 
     /// Puts the scene into the folder, in place of what an earlier run left there: its steps beside another scene
@@ -361,7 +411,7 @@ impl Export {
     fn move_in(&mut self) -> Result<(), ObserveError> {
         let entries = std::fs::read_dir(&self.folder).into_iter().flatten();
         let names = entries.flatten().map(|entry| entry.file_name());
-        let ours = |name: &str| is_a_step(name) || is_moving(name);
+        let ours = |name: &str| is_exported(name) && name != SCENE;
         for name in names.filter(|name| ours(&name.to_string_lossy())) {
             let removed = std::fs::remove_file(self.folder.join(name));
             removed.map_err(|error| self.failed(&error))?;
@@ -384,11 +434,18 @@ fn is_ours(path: &Path) -> bool {
 const NPZ: &str = ".npz";
 const VTI: &str = ".vti";
 const VTR: &str = "_slice.vtr";
+/// The archive with a time axis, and the lists by which ParaView plays steps.
+const SERIES: &str = "fields.npz";
+const LISTS: [&str; 2] = ["fields.pvd", "slices.pvd"];
+
+fn step_file(step: u64, ending: &str) -> String {
+    format!("step_{step:06}{ending}")
+}
 
 /// Whether a file of that name is one that an export writes: `step_000128.npz`, `step_000128_pressure.png`, the
 /// scene.
 pub fn is_exported(name: &str) -> bool {
-    name == SCENE || is_a_step(name) || is_moving(name)
+    [SCENE, SERIES].contains(&name) || LISTS.contains(&name) || is_a_step(name) || is_moving(name)
 }
 
 fn is_a_step(name: &str) -> bool {
@@ -432,7 +489,7 @@ impl Observer for Export {
             return Ok(());
         }
         if frame.step.is_multiple_of(self.every) {
-            self.take(frame, true)?;
+            self.take(frame, TakenAs::Still)?;
         } else if self.draws() {
             self.pictures[0].shown(frame);
         }
@@ -450,6 +507,7 @@ impl Observer for Export {
     fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
         let is_empty = self.frames == 0;
         self.write_moving()?;
+        self.write_series()?;
         Ok(ObserverReport {
             output: self.folder.display().to_string(),
             frames: self.frames,
