@@ -85,7 +85,9 @@ fn pictures(
     let others: Result<Vec<Other>, Failure> =
         args.beside.iter().map(|path| Other::read(path)).collect();
     let others = others?;
-    let export = Export::create(folder, overwrite, &args.formats)?.of(&args.show, print);
+    let export = Export::create(folder, overwrite, &args.formats)?
+        .of(&args.show, print)
+        .alone(args.every.is_none());
     let scenes = others.iter().map(|other| &*other.frames.scene);
     let mut export = export.beside(scenes);
     export.begin(context)?;

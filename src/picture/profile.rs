@@ -17,8 +17,8 @@ use asperity_engine::sim::{Frame, StressSlice};
 /// Depth to which a body is drawn at the edge of the picture, in half-widths.
 pub const DEEP: f64 = 0.6;
 /// Oil at the maximum pressure of the range and at none, bodies without stress.
-const OIL: [[f32; 3]; 2] = [[255.0, 214.0, 102.0], [74.0, 50.0, 16.0]];
-const STEEL: [[f32; 3]; 2] = [[116.0, 112.0, 92.0], [112.0, 96.0, 116.0]];
+pub(crate) const OIL: [[f32; 3]; 2] = [[255.0, 214.0, 102.0], [74.0, 50.0, 16.0]];
+pub(crate) const STEEL: [[f32; 3]; 2] = [[116.0, 112.0, 92.0], [112.0, 96.0, 116.0]];
 
 /// What stands at a place of the profile.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,6 +3,8 @@
 use asperity_engine::math::number::{GPA, MPA, UM, Unit, nice_ceiling};
 use asperity_engine::physics::hertz::crest_pressure_pa;
 use asperity_engine::scene::{ContactKind, Scene, Surface};
+#[cfg(not(target_arch = "wasm32"))]
+use asperity_engine::sim::StressSlice;
 use asperity_engine::sim::{Frame, Knob, Metrics};
 
 /// What ranges begin with: the first frame in figures.
@@ -286,6 +288,55 @@ impl Ranges {
         }
     }
 
+    /// These ranges with round ends just above what the frames hold: pictures that stand alone need no room for what may
+    /// come. Film: what is within 0.9 of Hertz's contact.
+    #[cfg(not(target_arch = "wasm32"))]
+    #[must_use]
+    pub(crate) fn around(&self, frames: &[Frame]) -> Self {
+        let top = |unit: Unit, of: &dyn Fn(&Frame) -> f64, usual: f64| {
+            let greatest = frames.iter().map(of).fold(0.0, f64::max);
+            if greatest > 0.0 {
+                nice_ceiling(unit.of(greatest)) / unit.per_si
+            } else {
+                usual
+            }
+        };
+        let si = Unit::new("", 1.0);
+        let slice = |frame: &Frame, of: fn(&StressSlice) -> &[f32]| {
+            let slice = frame.slice.as_ref();
+            slice.map_or(0.0, |slice| greatest(of(slice)))
+        };
+        let rough = |frame: &Frame| {
+            let both = [&frame.roughness_1_m, &frame.roughness_2_m];
+            both.map(|field| greatest(field))
+                .into_iter()
+                .fold(0.0, f64::max)
+        };
+        let rise = |frame: &Frame| {
+            let both = frame.surface_rise_k.iter();
+            both.map(|field| greatest(field)).fold(0.0, f64::max)
+        };
+        Self {
+            pressure_pa: top(GPA, &|frame| greatest(&frame.pressure_pa), self.pressure_pa),
+            film_m: top(UM, &film_within, self.film_m),
+            traction_pa: top(MPA, &|frame| greatest(&frame.traction_pa), self.traction_pa),
+            roughness_m: top(UM, &rough, self.roughness_m),
+            effective_pa: top(
+                GPA,
+                &|frame| slice(frame, |own| &own.effective_pa),
+                self.effective_pa,
+            ),
+            shear_pa: top(
+                GPA,
+                &|frame| slice(frame, |own| &own.tau_xz_pa),
+                self.shear_pa,
+            ),
+            surface_rise_k: top(si, &rise, self.surface_rise_k),
+            film_rise_k: top(si, &|frame| greatest(&frame.film_rise_k), self.film_rise_k),
+            ..*self
+        }
+    }
+
     /// The ranges of a run with that first frame, in which that can come.
     fn of(first: &First, to_come: &ToCome) -> Self {
         let metrics = &first.metrics;
@@ -334,6 +385,23 @@ impl Ranges {
             rough: [0, 1].map(|body| rough[body] > 0.0 || to_come.rough[body]),
         }
     }
+}
+
+/// Greatest film within 0.9 of Hertz's half-widths, m.
+#[cfg(not(target_arch = "wasm32"))]
+fn film_within(frame: &Frame) -> f64 {
+    let inside = |at: usize| {
+        let x_m = frame.x_min_m + frame.dx_m * (at % frame.nx) as f64;
+        let y_m = frame.y_min_m + frame.dy_m * (at / frame.nx) as f64;
+        let y = match frame.kind {
+            ContactKind::Point => y_m / frame.b_m,
+            ContactKind::Line => 0.0,
+        };
+        (x_m / frame.a_m).hypot(y) < 0.9
+    };
+    let film = frame.film_m.iter().enumerate();
+    let within = film.filter(|(at, _)| inside(*at)).map(|(_, film)| *film);
+    within.fold(0.0, f32::max).into()
 }
 
 fn greatest(field: &[f32]) -> f64 {

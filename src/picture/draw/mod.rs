@@ -12,6 +12,8 @@
 mod bitmap;
 mod font;
 mod pdf;
+#[cfg(test)]
+pub(crate) mod seen;
 mod svg;
 
 use asperity_engine::math::number::{plain, ticks};
@@ -25,6 +27,8 @@ pub(crate) type Rgb = [u8; 3];
 pub(crate) const INK: Rgb = [20, 20, 20];
 /// Lines behind curves.
 const GRID: Rgb = [225, 227, 230];
+/// Behind words on a field.
+const PLATE: Rgb = [38, 36, 44];
 /// Points of a millimetre.
 pub(crate) const PT_PER_MM: f64 = 72.0 / 25.4;
 
@@ -169,8 +173,14 @@ impl Text {
         }
     }
 
+    /// On white: as dark as it takes to be read there.
     #[must_use]
     pub(crate) fn coloured(self, colour: Rgb) -> Self {
+        self.on_field(legible(colour))
+    }
+
+    #[must_use]
+    fn on_field(self, colour: Rgb) -> Self {
         Self { colour, ..self }
     }
 
@@ -178,6 +188,32 @@ impl Text {
     pub(crate) fn sized(self, size: f64) -> Self {
         Self { size, ..self }
     }
+}
+
+/// Size of an index over that of its text, and how far it stands lower, over the size of type.
+const INDEX: f64 = 0.72;
+const INDEX_DOWN: f64 = 0.22;
+
+/// A text with an index: what is before it, the index, and the rest.
+fn parted(words: &str) -> Option<(&str, &str, &str)> {
+    let (base, after) = words.split_once('_')?;
+    let end = after
+        .find(|c: char| !c.is_alphanumeric())
+        .unwrap_or(after.len());
+    let (index, rest) = after.split_at(end);
+    // Names of files and keys stay as they are.
+    (base.chars().count() == 1 && !index.is_empty()).then_some((base, index, rest))
+}
+
+/// A colour made so dark that a text in it can be read on white: its luminance leaves a contrast of 4.5 and more (WCAG 2.2).
+fn legible(colour: Rgb) -> Rgb {
+    // Gamma 2.2 in place of the two pieces of sRGB, and so a little more.
+    const HIGHEST: f64 = 0.175;
+    let part = |value: u8| (f64::from(value) / 255.0).powf(2.2);
+    let [r, g, b] = colour.map(part);
+    let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let darker = (HIGHEST / luminance.max(HIGHEST)).powf(1.0 / 2.2);
+    colour.map(|value| (f64::from(value) * darker) as u8)
 }
 
 /// The side of a plot on which an axis stands.
@@ -278,26 +314,31 @@ impl Drawing {
         self
     }
 
+    /// Left and right, upper and lower edge of a text.
+    fn extent(&self, text: &Text) -> [[f64; 2]; 2] {
+        let em = self.font * text.size;
+        let long = text_width(&text.words) * em;
+        let before = text.anchor.share() * long;
+        let [x, y] = text.at;
+        // Letters reach .76 above their line and .24 below.
+        if text.is_turned {
+            [
+                [x - 0.76 * em, x + 0.24 * em],
+                [y - long + before, y + before],
+            ]
+        } else {
+            [
+                [x - before, x - before + long],
+                [y - 0.76 * em, y + 0.24 * em],
+            ]
+        }
+    }
+
     /// Texts of which a part lies outside of the drawing.
     #[cfg(test)]
     pub(crate) fn cut_off(&self) -> Vec<&str> {
         let is_cut = |text: &&Text| {
-            let em = self.font * text.size;
-            let long = text_width(&text.words) * em;
-            let before = text.anchor.share() * long;
-            let [x, y] = text.at;
-            // Letters reach .76 above their line and .24 below.
-            let ([left, right], [top, bottom]) = if text.is_turned {
-                (
-                    [x - 0.76 * em, x + 0.24 * em],
-                    [y - long + before, y + before],
-                )
-            } else {
-                (
-                    [x - before, x - before + long],
-                    [y - 0.76 * em, y + 0.24 * em],
-                )
-            };
+            let [[left, right], [top, bottom]] = self.extent(text);
             left < 0.0 || right > self.size[0] || top < 0.0 || bottom > self.size[1]
         };
         let cut = self.texts.iter().filter(is_cut);
@@ -346,9 +387,53 @@ impl Drawing {
         self.fill(points.collect(), colour);
     }
 
-    /// Lies above all fields and shapes.
+    /// Lies above all fields and shapes. What stands after a `_` up to the end of its word is set as an index.
     pub(crate) fn text(&mut self, text: Text) {
-        self.texts.push(text);
+        let Some((base, index, rest)) = parted(&text.words) else {
+            self.texts.push(text);
+            return;
+        };
+        let size = self.font * text.size;
+        let long = |words: &str, share: f64| text_width(words) * share * size;
+        let lengths = [long(base, 1.0), long(index, INDEX), long(rest, 1.0)];
+        let mut along = -text.anchor.share() * lengths.iter().sum::<f64>();
+        for (words, share, long) in [
+            (base, 1.0, lengths[0]),
+            (index, INDEX, lengths[1]),
+            (rest, 1.0, lengths[2]),
+        ] {
+            let down = if share < 1.0 { INDEX_DOWN * size } else { 0.0 };
+            let [x, y] = text.at;
+            let at = if text.is_turned {
+                [x + down, y - along]
+            } else {
+                [x + along, y + down]
+            };
+            along += long;
+            if !words.is_empty() {
+                self.texts.push(Text {
+                    at,
+                    words: words.to_owned(),
+                    anchor: TextAnchor::Start,
+                    size: share * text.size,
+                    ..text
+                });
+            }
+        }
+    }
+
+    /// White words on a dark plate: on a field of any colour they can be read.
+    pub(crate) fn plate(&mut self, text: Text) {
+        let [[left, right], [top, bottom]] = self.extent(&text);
+        let room = 0.3 * self.font;
+        let area = Rect {
+            left: left - room,
+            top,
+            wide: right - left + 2.0 * room,
+            high: bottom - top,
+        };
+        self.fill_rect(area, PLATE);
+        self.text(text.on_field([255; 3]));
     }
 
     /// A line around a plot, outside of it.
@@ -437,7 +522,7 @@ impl Drawing {
             self.text(Text::new([x + 0.4 * em, y + 0.35 * em], label));
         }
         self.text(Text::new(
-            [area.left - 0.2 * em, area.top - 0.6 * em],
+            [area.left - 0.2 * em, area.top - 0.85 * em],
             bar.title,
         ));
         if let Some(note) = bar.note {

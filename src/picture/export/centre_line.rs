@@ -8,7 +8,7 @@ use asperity_engine::math::number::{GPA, MM, UM, Unit};
 use asperity_engine::sim::Frame;
 
 pub(super) const PRESSURE: Rgb = [213, 94, 0];
-const FILM: Rgb = [0, 114, 178];
+pub(super) const FILM: Rgb = [0, 114, 178];
 
 /// A curve of the figure, in the units of its axis.
 struct CentreCurve {

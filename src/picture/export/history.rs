@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::centre_line::PRESSURE;
+use super::map::{RowScale, drawn};
 use super::sheet::Sheet;
 use crate::draw::{Axis, Drawing, Rgb, Side};
 use crate::{Look, NodeAxis, Picture, Ranges, Subject};
@@ -21,7 +22,7 @@ const MOST: usize = 1024;
 /// Height of both pages over their width.
 const HEIGHT: f64 = 0.6;
 /// The band of the life.
-const BAND: Rgb = [150, 155, 165];
+pub(super) const BAND: Rgb = [150, 155, 165];
 
 /// What has been so far.
 #[derive(Debug, Default)]
@@ -123,8 +124,13 @@ impl History {
             hertz: (frame.kind, [frame.a_m, frame.b_m]),
         })?;
         // Seconds are to milliseconds as metres to millimetres.
-        Some(super::map::drawn(
-            &picture, sheet, x_title, "time, ms", HEIGHT,
+        Some(drawn(
+            &picture,
+            sheet,
+            x_title,
+            "time, ms",
+            HEIGHT,
+            RowScale::Even,
         ))
     }
 

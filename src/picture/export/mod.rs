@@ -18,6 +18,7 @@ mod profile;
 mod series;
 mod sheet;
 mod vtk;
+mod white;
 
 use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
@@ -136,6 +137,8 @@ pub struct Export {
     /// Pictures that are drawn; empty: all, or of those that move the one that tells most.
     chosen: Vec<String>,
     print: PrintSize,
+    /// Whether ranges of what papers print are those of the step that stands alone.
+    stands_alone: bool,
     /// Of the steps that it is given it writes those that are multiples.
     every: u64,
     moving: BTreeMap<&'static str, Animation>,
@@ -188,6 +191,7 @@ impl Export {
             pictures: vec![Pictures::default()],
             chosen: Vec::new(),
             print: PrintSize::default(),
+            stands_alone: false,
             every: 1,
             moving: BTreeMap::new(),
             series: Series::default(),
@@ -208,6 +212,13 @@ impl Export {
     #[must_use]
     pub fn of(mut self, chosen: &[String], print: PrintSize) -> Self {
         (self.chosen, self.print) = (chosen.to_vec(), print);
+        self
+    }
+
+    /// Gives what papers print ranges with round ends just above what its step holds, as no other is compared with it.
+    #[must_use]
+    pub fn alone(mut self, stands_alone: bool) -> Self {
+        self.stands_alone = stands_alone;
         self
     }
 
@@ -246,7 +257,6 @@ impl Export {
             self.move_in()?;
             self.share_ranges(frames);
         }
-        let print = SheetKind::Printed(self.print);
         // Arrays hold all of a frame.
         let mut shown = Vec::new();
         if self.draws() {
@@ -261,6 +271,11 @@ impl Export {
             took.map_err(|error| self.failed(&error))?;
         }
         let is_still = taken == TakenAs::Still;
+        let own = match self.pictures.first_mut() {
+            Some(pictures) if is_still && self.stands_alone => pictures.ranges_around(&shown),
+            _ => None,
+        };
+        let print = SheetKind::Printed(self.print, own);
         for format in self.formats.clone().into_iter().filter(|_| is_still) {
             self.bytes += match format {
                 Format::Npz => self.write(frame, NPZ, &|out| write_npz(out, frame))?,

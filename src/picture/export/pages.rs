@@ -62,6 +62,12 @@ impl Pictures {
         scope.ranges
     }
 
+    /// The ranges of the run with round ends just above what these frames show.
+    pub(super) fn ranges_around(&mut self, shown: &[Frame]) -> Option<Ranges> {
+        let ranges = self.ranges(shown.first()?);
+        Some(ranges.around(shown))
+    }
+
     /// Takes ranges that hold for others too.
     pub(super) fn share(&mut self, scope: &Scope) {
         self.scope = Some(scope.clone());
@@ -111,11 +117,15 @@ impl Pictures {
         let sheet = match kind {
             SheetKind::Still => Sheet::still(heading(state(frame))),
             SheetKind::Moving { shared } => Sheet::moving(heading(moving_state(frame)), shared),
-            SheetKind::Printed(print) => Sheet::printed(&print),
+            SheetKind::Printed(print, _) => Sheet::printed(&print),
+        };
+        let own = match kind {
+            SheetKind::Printed(_, own) => own.unwrap_or(ranges),
+            SheetKind::Still | SheetKind::Moving { .. } => ranges,
         };
         let x_title = page.x_title();
         let drawing = match page {
-            Page::CentreLine => Some(centre_line(frame, &ranges, &sheet, x_title)),
+            Page::CentreLine => Some(centre_line(frame, &own, &sheet, x_title)),
             Page::Profile => {
                 let profile = self.profile(frame);
                 profile.map(|profile| profile.draw(&sheet, x_title))
@@ -126,7 +136,7 @@ impl Pictures {
                 profile.map(|profile| passage::draw(frame, &profile, trace, top, &sheet, x_title))
             }
             Page::Map(subject) => {
-                let picture = Picture::of(frame, subject, &ranges);
+                let picture = Picture::of(frame, subject, &own);
                 picture.map(|picture| map(&picture, &sheet, x_title))
             }
             Page::OverTime(subject) => {
@@ -151,8 +161,8 @@ pub(super) enum SheetKind {
     Still,
     /// A screen, as one of many; whether runs share it.
     Moving { shared: bool },
-    /// A paper.
-    Printed(PrintSize),
+    /// A paper; the ranges of what stands by itself, where they are not those of the run.
+    Printed(PrintSize, Option<Ranges>),
 }
 
 /// What is drawn into a file.
@@ -347,12 +357,13 @@ mod tests {
     }
 
     #[test]
-    fn no_word_is_cut_off() {
+    fn no_word_is_cut_off_or_faint() {
         let print = |width_mm| {
-            SheetKind::Printed(PrintSize {
+            let size = PrintSize {
                 width_mm,
                 ..PrintSize::default()
-            })
+            };
+            SheetKind::Printed(size, None)
         };
         let kinds = [
             SheetKind::Still,
@@ -368,6 +379,8 @@ mod tests {
                     let drawing = pictures.draw(&shown, page, kind).unwrap();
                     let cut = drawing.cut_off();
                     assert!(cut.is_empty(), "{preset}, {name}, {kind:?}: {cut:?}");
+                    let faint = drawing.faint(4.5);
+                    assert!(faint.is_empty(), "{preset}, {name}, {kind:?}: {faint:?}");
                     drawn += 1;
                 }
             }

@@ -56,8 +56,8 @@ pub(super) fn draw(
     for (number, peak) in trace.peaks.iter().filter(|(_, at)| inside(at)) {
         let [at_x, at_y] = place(peak);
         drawing.dot([at_x, at_y], 0.25 * em, PRESSURE);
-        let label = Text::new([at_x, at_y - 0.5 * em], number.to_string());
-        drawing.text(label.anchored(TextAnchor::Middle).coloured(PRESSURE));
+        let label = Text::new([at_x, at_y - 0.7 * em], number.to_string());
+        drawing.text(label.anchored(TextAnchor::Middle));
     }
     let has_point = frame.material_point.is_some();
     let here = trace.pressure.last();
@@ -99,7 +99,7 @@ fn say_speeds(drawing: &mut Drawing, upper: Rect, frame: &Frame) {
         };
         let words = format!("body {body}: {} m/s{arrow}", sig(speed, 3));
         let text = Text::new([middle, y], words);
-        drawing.text(text.anchored(TextAnchor::Middle).coloured([255; 3]));
+        drawing.plate(text.anchored(TextAnchor::Middle));
     }
 }
 

@@ -122,17 +122,12 @@ impl Sheet {
         }
     }
 
-    /// Height over width at which a picture is to scale; below the surface where that can be read.
+    /// Height over width at which a picture is to scale.
     pub(super) fn height_to_scale(picture: &Picture) -> f64 {
         let [wide, high] = [picture.x, picture.y].map(|axis| {
             let [from, to] = axis.ends();
             to - from
         });
-        let share = high / wide;
-        if picture.is_below && !(0.2..=1.5).contains(&share) {
-            0.6
-        } else {
-            share
-        }
+        high / wide
     }
 }
