@@ -98,7 +98,12 @@ fn pictures(
         None => whole.last(),
     };
     let mut next = 0;
-    for step in shown {
+    for between in frames.steps() {
+        let step = between.step;
+        if shown.binary_search(&step).is_err() {
+            export.pass(&between);
+            continue;
+        }
         let is_whole = whole.binary_search(&step).is_ok();
         let taken = match args.every {
             None if Some(&step) == one => TakenAs::Still,

@@ -18,9 +18,15 @@ mod draw;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod export;
 pub mod interferogram;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod plot;
 pub mod profile;
 pub mod ramp;
+#[cfg(not(target_arch = "wasm32"))]
+mod research;
 mod scope;
+#[cfg(not(target_arch = "wasm32"))]
+mod spectra;
 #[cfg(not(target_arch = "wasm32"))]
 mod trace;
 #[cfg(not(target_arch = "wasm32"))]
@@ -29,7 +35,11 @@ mod window;
 use std::borrow::Cow;
 
 pub use ramp::Ramp;
+#[cfg(not(target_arch = "wasm32"))]
+pub use research::{ResearchData, ResearchPlot};
 pub use scope::{Ranges, Scope, ToCome};
+#[cfg(not(target_arch = "wasm32"))]
+pub use spectra::Spectra;
 #[cfg(not(target_arch = "wasm32"))]
 pub use trace::{PointTrace, TracePoint};
 #[cfg(not(target_arch = "wasm32"))]

@@ -21,6 +21,10 @@ pub struct PointTrace {
     pub effective: Vec<TracePoint>,
     /// Pressure in the crossing before.
     pub before: Vec<TracePoint>,
+    /// Effective stress and orthogonal shear in it, Pa.
+    pub path: Vec<[f64; 2]>,
+    /// The same in the crossing before.
+    pub path_before: Vec<[f64; 2]>,
     /// Peaks of the pressure that have passed in this crossing, each with its number: between two frames several may.
     pub peaks: Vec<(u32, TracePoint)>,
 }
@@ -35,6 +39,7 @@ impl PointTrace {
         let jumped = (point.x_m - self.last_x_m).abs() > frame.a_m;
         if point.body != self.body || jumped {
             self.before = std::mem::take(&mut self.pressure);
+            self.path_before = std::mem::take(&mut self.path);
             self.effective.clear();
             self.peaks.clear();
             self.crossings += 1;
@@ -48,7 +53,8 @@ impl PointTrace {
         }
         self.pressure.push([point.x_m, point.pressure_pa]);
         self.effective.push([point.x_m, point.effective_pa]);
-        for trace in [&mut self.pressure, &mut self.effective] {
+        self.path.push([point.effective_pa, point.tau_xz_pa]);
+        for trace in [&mut self.pressure, &mut self.effective, &mut self.path] {
             if trace.len() > MOST_POINTS {
                 let mut keep = false;
                 trace.retain(|_| {

@@ -424,16 +424,29 @@ impl Drawing {
 
     /// White words on a dark plate: on a field of any colour they can be read.
     pub(crate) fn plate(&mut self, text: Text) {
-        let [[left, right], [top, bottom]] = self.extent(&text);
-        let room = 0.3 * self.font;
+        self.behind(&text, 0.3, PLATE);
+        self.text(text.on_field([255; 3]));
+    }
+
+    /// Words on white, whatever was there.
+    pub(crate) fn cleared(&mut self, text: Text) {
+        if !text.words.is_empty() {
+            self.behind(&text, 0.0, [255; 3]);
+            self.text(text);
+        }
+    }
+
+    /// A rectangle behind a text, at both its sides wider by so many sizes of type.
+    fn behind(&mut self, text: &Text, room: f64, colour: Rgb) {
+        let [[left, right], [top, bottom]] = self.extent(text);
+        let room = room * self.font;
         let area = Rect {
             left: left - room,
             top,
             wide: right - left + 2.0 * room,
             high: bottom - top,
         };
-        self.fill_rect(area, PLATE);
-        self.text(text.on_field([255; 3]));
+        self.fill_rect(area, colour);
     }
 
     /// A line around a plot, outside of it.

@@ -14,6 +14,7 @@ mod map;
 mod npz;
 mod pages;
 mod passage;
+mod plotted;
 mod profile;
 mod series;
 mod sheet;
@@ -290,6 +291,11 @@ impl Export {
         Ok(())
     }
 
+    /// Takes up a step of the first run without fields, for what pictures show of the followed point.
+    pub fn pass(&mut self, frame: &Frame) {
+        self.pictures[0].pass(frame);
+    }
+
     fn draws(&self) -> bool {
         self.formats.iter().any(|format| format.is_drawn())
     }
@@ -333,7 +339,7 @@ impl Export {
         file: fn(&Drawing) -> Result<Vec<u8>, String>,
     ) -> Result<u64, ObserveError> {
         let mut bytes = 0;
-        for (name, page) in Pictures::pages(shown, &self.chosen) {
+        for (name, page) in Pictures::pages(&self.pictures, shown, &self.chosen) {
             let drawn = file(&self.page(shown, page, sheet)?);
             let drawn = drawn.map_err(|reason| self.failed(&Error::other(reason)))?;
             let step = shown.first().map_or(0, |frame| frame.step);
@@ -354,7 +360,7 @@ impl Export {
         };
         let shared = shown.len() > 1;
         let kind = SheetKind::Moving { shared };
-        for (name, page) in Pictures::pages(shown, chosen) {
+        for (name, page) in Pictures::pages(&self.pictures, shown, chosen) {
             if self.moving.entry(name).or_default().wants() {
                 let pixels = self.page(shown, page, kind)?.pixels();
                 let pixels = pixels.map_err(|reason| self.failed(&Error::other(reason)))?;

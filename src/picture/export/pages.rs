@@ -8,10 +8,15 @@ use super::centre_line::centre_line;
 use super::history::History;
 use super::map::map;
 use super::passage;
+use super::plotted;
 use super::profile::ProfilePage;
 use super::sheet::{Heading, PrintSize, Sheet};
 use crate::draw::Drawing;
-use crate::{Look, NodeAxis, Picture, PointTrace, Ramp, Ranges, Scope, Subject, Window};
+use crate::plot::Plot;
+use crate::{
+    Look, NodeAxis, Picture, PointTrace, Ramp, Ranges, ResearchData, ResearchPlot, Scope, Spectra,
+    Subject, Window,
+};
 use asperity_engine::math::number::{GPA, Unit, plain, seconds};
 use asperity_engine::scene::{ContactKind, Scene};
 use asperity_engine::sim::{DamageBlock, Frame};
@@ -21,8 +26,11 @@ use asperity_engine::sim::{DamageBlock, Frame};
 pub(super) struct Pictures {
     scene: Option<Scene>,
     scope: Option<Scope>,
+    /// Whether its ranges hold for others too.
+    is_shared: bool,
     window: Option<Window>,
     trace: PointTrace,
+    spectra: Spectra,
     history: History,
 }
 
@@ -32,18 +40,27 @@ impl Pictures {
         Self {
             scene: Some(scene.clone()),
             scope: None,
+            is_shared: false,
             window: None,
             trace: PointTrace::default(),
+            spectra: Spectra::default(),
             history: History::default(),
         }
     }
 
-    /// What of the chosen all frames show: names and pages. Nothing chosen: all.
-    pub(super) fn pages(frames: &[Frame], chosen: &[String]) -> Vec<(&'static str, Page)> {
+    /// What of the chosen all runs show at these frames of theirs: names and pages. Nothing chosen: all.
+    pub(super) fn pages(
+        runs: &[Self],
+        frames: &[Frame],
+        chosen: &[String],
+    ) -> Vec<(&'static str, Page)> {
         let is_chosen = |name: &str| chosen.is_empty() || chosen.iter().any(|own| own == name);
-        let is_in_all = |page: Page| frames.iter().all(|frame| page.is_in(frame));
-        let shown = PAGES.into_iter().filter(|(_, page)| is_in_all(*page));
-        shown.filter(|(name, _)| is_chosen(name)).collect()
+        let is_in_all = |page: Page| {
+            let mut pairs = runs.iter().zip(frames);
+            pairs.all(|(run, frame)| page.is_in(frame) && run.has(page, frame))
+        };
+        let asked = PAGES.into_iter().filter(|(name, _)| is_chosen(name));
+        asked.filter(|(_, page)| is_in_all(*page)).collect()
     }
 
     /// What an animation shows where nothing was chosen.
@@ -71,11 +88,17 @@ impl Pictures {
     /// Takes ranges that hold for others too.
     pub(super) fn share(&mut self, scope: &Scope) {
         self.scope = Some(scope.clone());
+        self.is_shared = true;
     }
 
     /// Ranges of a run that begins with that frame.
     pub(super) fn scope(&self, frame: &Frame) -> Scope {
         Scope::of(self.scene.as_ref(), frame)
+    }
+
+    /// Takes up a step without fields.
+    pub(super) fn pass(&mut self, frame: &Frame) {
+        self.trace.follow(frame);
     }
 
     /// What of a frame pictures show. Every frame comes by here once, in its order.
@@ -89,8 +112,33 @@ impl Pictures {
         } else {
             frame.clone()
         };
+        self.spectra.follow(&shown);
         self.history.follow(&shown);
         shown
+    }
+
+    /// A plot with axes around what it holds; two that stand beside each other have those of the run.
+    fn research(&self, what: ResearchPlot, frame: &Frame, ranges: &Ranges) -> Option<Plot> {
+        let data = ResearchData {
+            scene: self.scene.as_ref()?,
+            trace: &self.trace,
+            spectra: &self.spectra,
+            ranges,
+        };
+        let plot = data.plot(what, frame)?;
+        Some(if self.is_shared { plot } else { plot.fitted() })
+    }
+
+    /// Whether there is something to plot.
+    fn has(&self, page: Page, frame: &Frame) -> bool {
+        let Page::Research(what) = page else {
+            return true;
+        };
+        let ranges = match &self.scope {
+            Some(scope) => scope.ranges,
+            None => self.scope(frame).ranges,
+        };
+        self.research(what, frame, &ranges).is_some()
     }
 
     /// The profile in the ranges that were asked for last.
@@ -144,6 +192,10 @@ impl Pictures {
                 history.over_time(subject, frame, &ranges, &sheet, x_title)
             }
             Page::LifeOverTime => self.history.life(&sheet),
+            Page::Research(what) => {
+                let plot = self.research(what, frame, &ranges);
+                plot.map(|plot| plotted::draw(&plot, &sheet))
+            }
             Page::Damage(body) => {
                 let block = frame.damage[body].as_ref();
                 let picture = block.and_then(|block| damage(frame, block));
@@ -180,12 +232,14 @@ pub(super) enum Page {
     OverTime(Subject),
     /// The life with its band, up to the step.
     LifeOverTime,
+    /// What a researcher looks for.
+    Research(ResearchPlot),
     /// Damage collected by a block of body 1 (0) or 2 (1).
     Damage(usize),
 }
 
 /// The pages and the names of their files.
-const PAGES: [(&str, Page); 22] = [
+const PAGES: [(&str, Page); 26] = [
     ("pressure", Page::Map(Subject::Pressure)),
     ("film", Page::Map(Subject::Film)),
     ("interferogram", Page::Map(Subject::Interferogram)),
@@ -212,6 +266,13 @@ const PAGES: [(&str, Page); 22] = [
     ),
     ("film_rise_over_time", Page::OverTime(Subject::OilRise)),
     ("life_over_time", Page::LifeOverTime),
+    ("stress_path", Page::Research(ResearchPlot::StressPath)),
+    ("sn_point", Page::Research(ResearchPlot::SnPoint)),
+    ("spectra", Page::Research(ResearchPlot::Spectra)),
+    (
+        "amplitude_ratio",
+        Page::Research(ResearchPlot::AmplitudeRatio),
+    ),
     ("damage_1", Page::Damage(0)),
     ("damage_2", Page::Damage(1)),
 ];
@@ -220,6 +281,7 @@ impl Page {
     fn title(self) -> &'static str {
         match self {
             Self::LifeOverTime => "Relative life, log10, with its band",
+            Self::Research(what) => what.title(),
             Self::Map(subject) | Self::OverTime(subject) => subject.title(),
             Self::CentreLine => "Pressure and film at y = 0",
             Self::Profile => "Surfaces and what is between them at y = 0",
@@ -233,6 +295,8 @@ impl Page {
         match self {
             Self::Damage(_) => "distance along the surface from a crest, mm",
             Self::LifeOverTime => "time, ms",
+            // They have their own.
+            Self::Research(_) => "",
             Self::Map(_) | Self::CentreLine | Self::Profile | Self::Passage | Self::OverTime(_) => {
                 "x, mm (rolling direction to the right)"
             }
@@ -244,6 +308,8 @@ impl Page {
         let subject = match self {
             Self::Map(subject) => subject,
             Self::CentreLine | Self::Profile | Self::Passage => return true,
+            // What has been before it tells.
+            Self::Research(_) => return true,
             Self::OverTime(subject) => return subject.field(frame).is_some(),
             Self::LifeOverTime => {
                 let life = frame.metrics.life.as_ref();
@@ -374,7 +440,9 @@ mod tests {
         let mut drawn = 0;
         for preset in ["demonstration", "fzg_point_a"] {
             let (mut pictures, shown) = run(preset);
-            for (name, page) in Pictures::pages(std::slice::from_ref(&shown), &[]) {
+            let runs = std::slice::from_ref(&pictures);
+            let pages = Pictures::pages(runs, std::slice::from_ref(&shown), &[]);
+            for (name, page) in pages {
                 for kind in kinds {
                     let drawing = pictures.draw(&shown, page, kind).unwrap();
                     let cut = drawing.cut_off();
