@@ -114,6 +114,15 @@ pub(crate) mod tooth {
     ];
 }
 
+/// What a researcher looks for.
+pub(crate) mod research {
+    use asperity_picture::ResearchPlot;
+
+    pub(crate) fn entity(what: ResearchPlot) -> String {
+        format!("research/{}", what.name())
+    }
+}
+
 /// Damage maps of body 1 and 2.
 pub(crate) const DAMAGE: [&str; 2] = [
     "damage/body_1_log10_relative",

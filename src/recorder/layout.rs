@@ -39,6 +39,13 @@ pub(crate) fn send(stream: &Stream, shown: &ShownViews) -> Result<(), ObserveErr
     send_tabs(stream, tabs, &views.properties, shown)
 }
 
+/// Sends what there is to see before the first frame: what runs, in words.
+pub(crate) fn send_early(stream: &Stream) -> Result<(), ObserveError> {
+    let mut views = Views::default();
+    let scene = tabs::scene(&mut views);
+    send_played(stream, vec![scene], &views.properties, true, None)
+}
+
 /// Sends tabs of what is shown.
 pub(crate) fn send_tabs(
     stream: &Stream,
@@ -46,13 +53,23 @@ pub(crate) fn send_tabs(
     properties: &[Property],
     shown: &ShownViews,
 ) -> Result<(), ObserveError> {
+    send_played(stream, tabs, properties, shown.live, shown.playback_speed)
+}
+
+fn send_played(
+    stream: &Stream,
+    tabs: Vec<ContainerLike>,
+    properties: &[Property],
+    live: bool,
+    playback_speed: Option<f64>,
+) -> Result<(), ObserveError> {
     let time = TimePanel::new()
         .with_state(PanelState::Collapsed)
         .with_play_state(PlayState::Following)
-        .with_loop_mode(loop_mode(shown.live))
+        .with_loop_mode(loop_mode(live))
         .with_fps(15.0);
     // Milliseconds, so slowly that a passage can be followed; where nothing moves there are only steps.
-    let time = match shown.playback_speed {
+    let time = match playback_speed {
         Some(speed) => time
             .with_timeline(SIMULATED_TIME)
             .with_playback_speed(speed),

@@ -52,6 +52,7 @@ mod properties;
 mod raster;
 mod recorder;
 mod repeat;
+mod research;
 mod run_views;
 mod scalars;
 mod series;

@@ -23,7 +23,7 @@ pub(crate) const HALF_LABEL: f64 = 0.022;
 pub(crate) type AxisTick = (f64, String);
 
 /// The frame of a plot.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct PlotBox {
     /// Left and right edge.
     pub(crate) x: [f64; 2],

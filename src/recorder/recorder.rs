@@ -137,12 +137,15 @@ impl Recorder {
         let frame = cut.as_ref().unwrap_or(frame);
         if self.views.is_none() {
             self.log_early();
-            let series = Series::new(&self.stream, frame.kind);
             let scene = self.scene.as_deref();
+            let knobs = if self.by_hand {
+                Knobs::Turn
+            } else {
+                Knobs::of(scene)
+            };
+            let series = Series::new(&self.stream, frame.kind, knobs);
             let mut views = RunViews::new(&self.stream, &self.record, scene, frame, series, None)?;
-            if self.by_hand {
-                views.shown.knobs = Knobs::Turn;
-            }
+            views.shown.knobs = knobs;
             layout::send(&self.stream, &views.shown)?;
             self.views = Some(views);
         }
@@ -249,6 +252,10 @@ impl Observer for Recorder {
         self.program.clone_from(&context.program);
         properties::log_scene(&self.stream, context);
         text::log_context(&self.stream, context);
+        // Whoever looks on reads what runs until there is a picture.
+        if self.stream.is_live() {
+            layout::send_early(&self.stream)?;
+        }
         // What repeats the run is on the disk before it starts, and that nothing of it is there yet.
         self.flush(false)
     }

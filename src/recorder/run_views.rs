@@ -11,6 +11,7 @@ use super::maps::{self, Maps};
 use super::picture::top;
 use super::profile::ProfileEntity;
 use super::raster::RasterEntity;
+use super::research::{self, ResearchEntity};
 use super::scalars;
 use super::series::Series;
 use super::shown::ShownViews;
@@ -105,6 +106,11 @@ impl RunViews {
         let last: usize = kymographs.iter().map(KymographEntity::full_bytes).sum();
         all.extend(kymographs.into_iter().map(boxed));
         all.push(boxed(Damage::default()));
+        if let Some(scene) = scene.filter(|_| !is_common) {
+            shown.research = research::shown(scene, first, shown.rough);
+            let plots = ResearchEntity::new(scene, &shown.research, scope.ranges);
+            all.push(boxed(plots));
+        }
         let spent = [stream.expected_bytes(), TEXT * last as f64];
         let steps = expected_steps(scene, first);
         let cadence = Cadence::new(record, steps, frame_bytes(geometry), spent);

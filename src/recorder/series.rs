@@ -3,6 +3,7 @@
 //! Values that are known in the same steps share an entity (45 bytes in place of 223, and a chunk less a second); what is
 //! not known yet is left out.
 
+use rerun::components::InterpolationMode;
 use rerun::{Color, SeriesLines};
 
 use super::colour::curve::{BLUE, GREEN, GREY, OLIVE, ORANGE, PURPLE, SKY, VERMILION};
@@ -10,6 +11,7 @@ use super::entities::SCALARS;
 use super::entities::series::{LIFE, POINT_CYCLES, YIELDED};
 use super::moment::Moment;
 use super::scalars;
+use super::shown::Knobs;
 use super::stream::Stream;
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::{CATALOGUE, CautionCode, Frame, Quantity, named};
@@ -17,8 +19,8 @@ use asperity_engine::sim::{CATALOGUE, CautionCode, Frame, Quantity, named};
 /// Smallest error that is drawn: errors are plotted as logarithms, and what is less is as good as none.
 const LEAST_ERROR: f64 = 1e-12;
 
-/// Colours of lines, each with its quantity.
-type Coloured = &'static [(&'static Quantity, [u8; 3])];
+/// Lines: quantity, colour, and its name in the legend of a view whose title says the rest; empty: the quantity's own.
+type Coloured = &'static [(&'static Quantity, [u8; 3], &'static str)];
 
 /// Lines that share an entity; none of them has a value while one is not known.
 #[derive(Clone, Copy)]
@@ -44,39 +46,39 @@ use CurveGroup::{Errors, Linear, Logarithms, Made};
 
 #[rustfmt::skip]
 static GROUPS: [(&str, CurveGroup); 27] = [
-    ("series/pressure_GPa", Linear(&[(named("p_max_pa"), ORANGE), (named("p_hertz_pa"), GREY)])),
-    ("series/film_um", Linear(&[(named("h_central_m"), SKY), (named("h_mean_m"), GREEN), (named("h_min_m"), BLUE)])),
-    ("series/contact_percent", Linear(&[(named("contact_ratio"), SKY), (named("contact_load_ratio"), ORANGE)])),
-    ("series/friction", Linear(&[(named("friction_coefficient"), GREEN)])),
-    ("series/motion", Linear(&[(named("slide_roll"), OLIVE), (named("slide_roll_target"), GREY), (named("entrainment_m_s"), PURPLE)])),
-    ("series/load_N", Linear(&[(named("load_n"), SKY), (named("load_target_n"), GREY)])),
-    ("series/load_N_per_m", Linear(&[(named("load_n"), SKY), (named("load_target_n"), GREY)])),
-    ("series/half_width_um", Linear(&[(named("a_m"), GREEN), (named("b_m"), GREY)])),
+    ("series/pressure_GPa", Linear(&[(named("p_max_pa"), ORANGE, "maximum"), (named("p_hertz_pa"), GREY, "Hertz")])),
+    ("series/film_um", Linear(&[(named("h_central_m"), SKY, "centre"), (named("h_mean_m"), GREEN, "mean"), (named("h_min_m"), BLUE, "minimum")])),
+    ("series/contact_percent", Linear(&[(named("contact_ratio"), SKY, "area"), (named("contact_load_ratio"), ORANGE, "load")])),
+    ("series/friction", Linear(&[(named("friction_coefficient"), GREEN, "")])),
+    ("series/motion", Linear(&[(named("slide_roll"), OLIVE, "S"), (named("slide_roll_target"), GREY, "its target"), (named("entrainment_m_s"), PURPLE, "U, m/s")])),
+    ("series/load_N", Linear(&[(named("load_n"), SKY, "now"), (named("load_target_n"), GREY, "target")])),
+    ("series/load_N_per_m", Linear(&[(named("load_n"), SKY, "now"), (named("load_target_n"), GREY, "target")])),
+    ("series/half_width_um", Linear(&[(named("a_m"), GREEN, "along x"), (named("b_m"), GREY, "across")])),
     ("series/regime", Made(&[("0 dry, 1 boundary, 2 mixed, 3 full film", SKY)], |frame, out| out.push(scalars::code(frame.metrics.regime)))),
     ("series/cautions", Made(&CAUTIONS, cautions)),
-    (YIELDED, Made(&[("body 1 has yielded, µm³", SKY), ("body 2 has yielded, µm³", ORANGE)], yielded)),
-    ("convergence/log10_errors", Errors(&[(named("residual"), GREEN), (named("load_error"), SKY), (named("film_error"), PURPLE), (named("mass_error"), ORANGE)])),
-    ("convergence/iterations", Linear(&[(named("newton_iterations"), SKY), (named("linear_iterations"), ORANGE), (named("retries"), VERMILION), (named("converged"), GREEN)])),
-    ("series/stress_GPa", Linear(&[(named("sigma_eff_max_pa"), PURPLE)])),
-    ("series/lambda_ratio", Linear(&[(named("lambda_ratio"), SKY)])),
-    (LIFE, Logarithms(&[(named("life_relative_low"), GREY), (named("life_relative"), VERMILION), (named("life_relative_high"), GREY)])),
-    ("life/log10_factors", Logarithms(&[(named("cycle_factor"), SKY), (named("peak_factor"), ORANGE), (named("traction_factor"), GREEN)])),
-    ("life/log10_factors/load", Logarithms(&[(named("load_factor"), PURPLE)])),
-    ("life/relative", Linear(&[(named("life_relative"), VERMILION)])),
-    ("life/contacts_per_cycle/n_1_formula", Linear(&[(named("n_body_1"), SKY)])),
-    ("life/contacts_per_cycle/n_1_counted", Linear(&[(named("n_counted_body_1"), BLUE)])),
-    ("life/contacts_per_cycle/n_2_formula", Linear(&[(named("n_body_2"), ORANGE)])),
-    ("life/contacts_per_cycle/n_2_counted", Linear(&[(named("n_counted_body_2"), VERMILION)])),
-    ("material_point/stress_GPa", Made(&[("pressure above the point, GPa", ORANGE), ("effective stress, GPa", PURPLE), ("τxz, GPa", SKY)], |frame, out| {
+    (YIELDED, Made(&[("body 1", SKY), ("body 2", ORANGE)], yielded)),
+    ("convergence/log10_errors", Errors(&[(named("residual"), GREEN, "residual"), (named("load_error"), SKY, "load"), (named("film_error"), PURPLE, "film"), (named("mass_error"), ORANGE, "mass")])),
+    ("convergence/iterations", Linear(&[(named("newton_iterations"), SKY, "Newton"), (named("linear_iterations"), ORANGE, "linear"), (named("retries"), VERMILION, "retries"), (named("converged"), GREEN, "converged (1)")])),
+    ("series/stress_GPa", Linear(&[(named("sigma_eff_max_pa"), PURPLE, "")])),
+    ("series/lambda_ratio", Linear(&[(named("lambda_ratio"), SKY, "")])),
+    (LIFE, Logarithms(&[(named("life_relative_low"), GREY, "band, low"), (named("life_relative"), VERMILION, "life"), (named("life_relative_high"), GREY, "band, high")])),
+    ("life/log10_factors", Logarithms(&[(named("cycle_factor"), SKY, "cycles"), (named("peak_factor"), ORANGE, "peaks"), (named("traction_factor"), GREEN, "traction")])),
+    ("life/log10_factors/load", Logarithms(&[(named("load_factor"), PURPLE, "load")])),
+    ("life/relative", Linear(&[(named("life_relative"), VERMILION, "life")])),
+    ("life/contacts_per_cycle/n_1_formula", Linear(&[(named("n_body_1"), SKY, "formula")])),
+    ("life/contacts_per_cycle/n_1_counted", Linear(&[(named("n_counted_body_1"), BLUE, "counted")])),
+    ("life/contacts_per_cycle/n_2_formula", Linear(&[(named("n_body_2"), ORANGE, "formula")])),
+    ("life/contacts_per_cycle/n_2_counted", Linear(&[(named("n_counted_body_2"), VERMILION, "counted")])),
+    ("material_point/stress_GPa", Made(&[("p", ORANGE), ("σ_eff", PURPLE), ("τxz", SKY)], |frame, out| {
         let point = frame.material_point.map(|point| [point.pressure_pa, point.effective_pa, point.tau_xz_pa]);
         out.extend(point.into_iter().flatten().map(|stress| stress * 1e-9));
     })),
-    (POINT_CYCLES, Linear(&[(named("point_cycles_counted"), VERMILION)])),
-    ("material_point/cycles/formula", Made(&[("expected on average, n", GREY)], |frame, out| {
+    (POINT_CYCLES, Linear(&[(named("point_cycles_counted"), VERMILION, "so far")])),
+    ("material_point/cycles/formula", Made(&[("expected", GREY)], |frame, out| {
         let n = [frame.metrics.n_body_1, frame.metrics.n_body_2];
         out.extend(frame.material_point.and_then(|point| n[usize::from(point.body != 1)]));
     })),
-    ("material_point/position_mm", Made(&[("x, mm", GREEN), ("depth, mm", GREY)], |frame, out| {
+    ("material_point/position_mm", Made(&[("x", GREEN), ("depth", GREY)], |frame, out| {
         let point = frame.material_point.map(|point| [point.x_m, point.depth_m]);
         out.extend(point.into_iter().flatten().map(|place| place * 1e3));
     })),
@@ -114,8 +116,10 @@ impl CurveGroup {
     /// Names and colours of the lines.
     fn lines(self, kind: ContactKind) -> Vec<(String, [u8; 3])> {
         let named = |of: Coloured, before: &str| {
-            let line = |(quantity, colour): &(&Quantity, _)| {
-                (format!("{before}{}", quantity.label(kind)), *colour)
+            let line = |(quantity, colour, short): &(&Quantity, _, &str)| {
+                let long = || format!("{before}{}", quantity.label(kind));
+                let name = Some(*short).filter(|short| !short.is_empty());
+                (name.map_or_else(long, str::to_owned), *colour)
             };
             of.iter().map(line).collect()
         };
@@ -160,7 +164,7 @@ impl CurveGroup {
 
 fn add_all(of: Coloured, value: impl Fn(&Quantity) -> Option<f64>, out: &mut Vec<f64>) {
     let before = out.len();
-    out.extend(of.iter().map_while(|(quantity, _)| value(quantity)));
+    out.extend(of.iter().map_while(|(quantity, ..)| value(quantity)));
     if out.len() < before + of.len() {
         out.truncate(before);
     }
@@ -201,12 +205,26 @@ fn line(code: CautionCode) -> Option<usize> {
     }
 }
 
-/// Colours of the lines of an entity, in their order.
-pub(crate) fn colours(entity: &str) -> Vec<[u8; 3]> {
-    let of = GROUPS.iter().find(|(name, _)| *name == entity);
-    let lines = of.map(|(_, curves)| curves.lines(ContactKind::Point));
-    let lines = lines.into_iter().flatten();
-    lines.map(|(_, colour)| colour).collect()
+/// What rests where no knob is turned.
+const OF_KNOBS: [&str; 5] = [
+    "series/motion",
+    "series/load_N",
+    "series/load_N_per_m",
+    "series/half_width_um",
+    "series/lambda_ratio",
+];
+
+/// What is the same until it is another: a knob that a script or a hand turns, a count, a state.
+fn goes_in_steps(entity: &str) -> bool {
+    const KINDS: [&str; 6] = [
+        "series/motion",
+        "series/load_N",
+        "series/load_N_per_m",
+        "series/regime",
+        "series/cautions",
+        "convergence/iterations",
+    ];
+    KINDS.contains(&entity) || entity.starts_with("material_point/cycles/")
 }
 
 /// The lines of a contact of that kind by their entities: a load is a force or a force per length.
@@ -258,9 +276,13 @@ struct SeriesColumn {
 }
 
 impl Series {
-    /// Logs names and colours, once for the whole recording, and collects from there on.
-    pub(crate) fn new(stream: &Stream, kind: ContactKind) -> Self {
-        Self::chosen(stream, kind, |_| true)
+    /// Logs names and colours, once for the whole recording, and collects from there on: not what rests with its knobs, which
+    /// no view shows and [`SCALARS`] has.
+    pub(crate) fn new(stream: &Stream, kind: ContactKind, knobs: Knobs) -> Self {
+        Self::chosen(stream, kind, |entity| match knobs {
+            Knobs::Turn => true,
+            Knobs::Rest => !OF_KNOBS.contains(&entity),
+        })
     }
 
     /// Same for the entities that `keep` says.
@@ -279,7 +301,10 @@ impl Series {
             let style = SeriesLines::new()
                 .with_colors(colours)
                 .with_widths(lines.iter().map(|_| 1.8));
-            let style = style.with_names(lines.into_iter().map(|(name, _)| name));
+            let mut style = style.with_names(lines.into_iter().map(|(name, _)| name));
+            if goes_in_steps(&column.entity) {
+                style = style.with_interpolation_mode(InterpolationMode::StepAfter);
+            }
             stream.log_static(column.entity.as_str(), &style);
             column
         });

@@ -5,7 +5,7 @@ use super::plot::PlotBox;
 use super::tooth::ShownTooth;
 use asperity_engine::scene::{ContactKind, Life, Scene};
 use asperity_engine::sim::Frame;
-use asperity_picture::{Scope, Subject};
+use asperity_picture::{ResearchPlot, Scope, Subject};
 
 /// Whether S, speed or load change while a run is recorded: what rests is a number and no curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,6 +13,16 @@ pub(crate) enum Knobs {
     Rest,
     /// By the script, or perhaps by hand.
     Turn,
+}
+
+impl Knobs {
+    /// Of a run of that scene.
+    pub(crate) fn of(scene: Option<&Scene>) -> Self {
+        match scene {
+            Some(scene) if scene.events.is_empty() => Self::Rest,
+            _ => Self::Turn,
+        }
+    }
 }
 
 /// What the first frame tells the layout.
@@ -46,6 +56,8 @@ pub(crate) struct ShownViews {
     pub(crate) yields: bool,
     /// Loading cycles that the surfaces age over.
     pub(crate) age_cycles: Option<f64>,
+    /// Plots for researchers; none in runs side by side.
+    pub(crate) research: Vec<ResearchPlot>,
     /// Maps of temperature; none where the scene asks for no heat.
     pub(crate) rises: &'static [(&'static str, Subject)],
 }
@@ -57,10 +69,7 @@ impl ShownViews {
         Self {
             live: false,
             playback_speed: None,
-            knobs: match scene {
-                Some(scene) if scene.events.is_empty() => Knobs::Rest,
-                _ => Knobs::Turn,
-            },
+            knobs: Knobs::of(scene),
             kind: first.kind,
             map,
             interferogram: PlotBox::default(),
@@ -78,6 +87,7 @@ impl ShownViews {
             life: first.metrics.life.is_some(),
             yields: first.metrics.yielded_m3.is_some(),
             age_cycles: scene.and_then(|scene| Some(scene.age?.cycles)),
+            research: Vec::new(),
             rises: rises(first),
         }
     }

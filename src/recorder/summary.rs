@@ -80,7 +80,7 @@ impl Epilogue for SummaryEpilogue<'_> {
         let style = SeriesLines::new()
             .with_colors([curve::GREEN; 2].map(Color::from))
             .with_widths([1.2; 2])
-            .with_names(["low, with the mesh's error", "high, with the mesh's error"]);
+            .with_names(["mesh, low", "mesh, high"]);
         chunks.push(chunk(LIFE_BAND, TimePoint::default(), &style)?);
         for moment in moments {
             let band = Scalars::new([low, high].map(f64::log10));

@@ -49,7 +49,7 @@ impl ToothEntity {
             stream.log_static(outline, &line(colour, 1.25));
         }
         let path =
-            |k: usize, values| PathCurve::new(stream, PATHS[k], values, CURVES[k], &line_of_action);
+            |k: usize, lines| PathCurve::new(stream, PATHS[k], lines, CURVES[k], &line_of_action);
         let [pressure, sliding, radius] = path_curves(scene, &tooth, &line_of_action);
         Some(Self {
             paths: [path(0, pressure), path(1, sliding), path(2, radius)],
@@ -111,17 +111,24 @@ pub(crate) struct ShownTooth {
 /// A curve over the path: mm from A, value.
 type PathValues = Vec<[f64; 2]>;
 
-/// Hertz pressure by the script; sliding and radius of the tooth itself.
-fn path_curves(scene: &Scene, tooth: &Tooth, line: &LineOfAction) -> [PathValues; 3] {
+/// What the run has, and what it stands for where that is another.
+struct PathLines {
+    run: PathValues,
+    tooth: PathValues,
+}
+
+/// Hertz pressure and sliding by the script, which changes them in steps; sliding and radius of the tooth itself.
+fn path_curves(scene: &Scene, tooth: &Tooth, line: &LineOfAction) -> [PathLines; 3] {
     let e_prime_pa = scene.e_prime_pa();
-    let load = scene.events.iter().filter_map(|event| {
-        let load = event.set.get("load.force_n_per_m")?;
-        let place_mm = (tooth.place_m(line, event.at_s) - line.a) * MM;
-        let p = hertz_from_load(scene.contact.rx_m, e_prime_pa, *load).p_max_pa;
-        Some([place_mm, GPA.of(p)])
-    });
+    let scripted = |key: &str, value: &dyn Fn(f64) -> f64| {
+        let set = scene.events.iter().filter_map(|event| {
+            let place_mm = (tooth.place_m(line, event.at_s) - line.a) * MM;
+            Some([place_mm, value(*event.set.get(key)?)])
+        });
+        in_steps(set, (line.e - line.a) * MM)
+    };
     let gears = tooth.gears();
-    let over = |value: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
+    let over = |value: &dyn Fn(f64) -> f64| -> PathValues {
         (0..=48)
             .map(|k| line.a + (line.e - line.a) * f64::from(k) / 48.0)
             .map(|place_m| [(place_m - line.a) * MM, value(place_m)])
@@ -133,19 +140,50 @@ fn path_curves(scene: &Scene, tooth: &Tooth, line: &LineOfAction) -> [PathValues
         let (one, two) = (s, ratio * (line.length - s));
         2.0 * (two - one) / (two + one)
     });
-    let radius = over(&|s| MM * s * (line.length - s) / line.length);
-    [load.collect(), sliding, radius]
+    let pressure = |load: f64| {
+        let hertz = hertz_from_load(scene.contact.rx_m, e_prime_pa, load);
+        GPA.of(hertz.p_max_pa)
+    };
+    [
+        PathLines {
+            run: scripted("load.force_n_per_m", &pressure),
+            tooth: Vec::new(),
+        },
+        PathLines {
+            run: scripted("motion.slide_roll", &|slide_roll| slide_roll),
+            tooth: sliding,
+        },
+        PathLines {
+            run: over(&|s| MM * s * (line.length - s) / line.length),
+            tooth: Vec::new(),
+        },
+    ]
+}
+
+/// Values that hold from their place to the next, or to the end.
+fn in_steps(set: impl Iterator<Item = [f64; 2]>, end: f64) -> PathValues {
+    let mut steps: PathValues = Vec::new();
+    for [place, value] in set.filter(|[place, _]| *place < end) {
+        if let Some([_, before]) = steps.last().copied() {
+            steps.push([place, before]);
+        }
+        steps.push([place, value]);
+    }
+    let last = steps.last().map(|[_, value]| [end, *value]);
+    steps.extend(last);
+    steps
 }
 
 impl PathCurve {
     fn new(
         stream: &Stream,
         entity: &'static str,
-        values: PathValues,
+        lines: PathLines,
         colour: [u8; 3],
         line_of_action: &LineOfAction,
     ) -> Self {
-        let all = || values.iter().map(|[_, y]| *y);
+        let PathLines { run, tooth } = lines;
+        let all = || run.iter().chain(&tooth).map(|[_, y]| *y);
         let (minimum, maximum) = (all().fold(0.0, f64::min), all().fold(0.0, f64::max));
         let top = nice_ceiling(maximum.max(1e-9));
         let range = [
@@ -166,12 +204,16 @@ impl PathCurve {
             ..PlotBox::default()
         };
         plot.log(stream, &format!("{entity}/axes"), Holds::Always);
-        let strip = values.into_iter().map(|[x, y]| [x, height(y, range, long)]);
-        let strip = points(&strip.collect::<Vec<_>>());
-        let curve = line(colour, 1.5).with_strips([strip]);
-        stream.log_static(format!("{entity}/curve"), &curve);
+        for (part, values, colour, radius) in
+            [("tooth", tooth, GREY, 0.75), ("curve", run, colour, 1.5)]
+        {
+            let strip = values.into_iter().map(|[x, y]| [x, height(y, range, long)]);
+            let strip = points(&strip.collect::<Vec<_>>());
+            let curve = line(colour, radius).with_strips([strip]);
+            stream.log_static(format!("{entity}/{part}"), &curve);
+        }
         log_places(stream, entity, &plot, line_of_action);
-        let now = dot(GREEN, 5.0).with_show_labels(true);
+        let now = dot(GREEN, 5.0);
         stream.log_static(format!("{entity}/now"), &now);
         stream.log_static(format!("{entity}/line_at_now"), &line(GREEN, 1.0));
         Self {
@@ -190,10 +232,15 @@ impl PathCurve {
         strip.to([place, bottom as f32]);
         strip.log(stream, &format!("{}/line_at_now", self.entity));
         let y = height(value, self.range, x[1]).clamp(top, bottom) as f32;
-        let now = Points2D::update_fields()
-            .with_positions([[place, y]])
-            .with_labels([sig(value, 3)]);
+        let now = Points2D::update_fields().with_positions([[place, y]]);
         stream.log(&format!("{}/now", self.entity), &now);
+        let mut label = Labels::default();
+        // Within the plot, so that no edge cuts it off.
+        let aside = 0.05 * (x[1] - x[0]);
+        let at = place_mm.clamp(x[0] + aside, x[1] - aside);
+        label.add([at, f64::from(y)], &sig(value, 3), WHITE);
+        let entity = format!("{}/now/value", self.entity);
+        label.log(stream, &entity, Holds::FromNow);
     }
 }
 
@@ -270,4 +317,17 @@ fn log_line(stream: &Stream, gears: &GearTeeth, line_of_action: &LineOfAction) {
     labels.log(stream, &format!("{GEARS}/names"), Holds::Always);
     let contact = dot(ORANGE, 7.0).with_draw_order(28.0);
     stream.log_static(CONTACT, &contact);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_script_sets_holds_until_it_is_set_again() {
+        let set = [[0.0, 1.0], [2.0, 3.0], [9.0, 7.0]].into_iter();
+        let steps = in_steps(set, 5.0);
+        assert_eq!(steps, [[0.0, 1.0], [2.0, 1.0], [2.0, 3.0], [5.0, 3.0]]);
+        assert!(in_steps(std::iter::empty(), 5.0).is_empty());
+    }
 }

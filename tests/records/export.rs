@@ -113,6 +113,8 @@ fn pictures_are_drawn_of_every_map_and_of_the_centre_line() {
         "pressure_over_time",
         "film_over_time",
         "life_over_time",
+        "stress_path",
+        "sn_point",
     ] {
         let file = folder.path().join(format!("step_000016_{name}.png"));
         let picture = std::fs::read(&file).unwrap();

@@ -299,8 +299,9 @@ fn compare(scene: &Scene, of_export: &Scene) -> Compared {
             if let Some((pixels, [wide, tall])) = &exported {
                 let ends = |places: &[f64]| (places[0], places[places.len() - 1]);
                 let ((x_0, x_1), (y_0, y_1)) = (ends(&places.x), ends(&places.y));
+                // On paper depths are rows of the same height.
                 let down = if places.is_below {
-                    (places.y[j] - y_0) / (y_1 - y_0)
+                    j as f64 / (places.y.len() - 1) as f64
                 } else {
                     (y_1 - places.y[j]) / (y_1 - y_0)
                 };

@@ -11,8 +11,9 @@ use crate::entities::maps::INTERFEROGRAM;
 use crate::entities::profile::PROFILE;
 use crate::entities::series::{LIFE, POINT_CYCLES, YIELDED};
 use crate::entities::trace::TRACE;
-use crate::entities::{DAMAGE, kymograph, maps, slice, slice_over_log_depth, text, tooth};
+use crate::entities::{self, DAMAGE, kymograph, maps, slice, slice_over_log_depth, text, tooth};
 use crate::plot::Margin;
+use crate::research;
 use crate::series::{by_itself, entity};
 use crate::shown::{Knobs, ShownViews};
 use asperity_engine::scene::ContactKind;
@@ -36,6 +37,7 @@ pub(crate) fn all(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
         tabs.push(life(views, shown));
     }
     tabs.extend(damage_of_both(views, shown));
+    tabs.extend(analysis(views, shown));
     tabs.extend(heat(views, shown));
     tabs.extend(ageing(views, shown));
     tabs.push(scalars(views, shown));
@@ -72,7 +74,7 @@ fn tooth(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
         .with_row_shares(vec![1.7, 1.0]);
     let titles = [
         "Hertz pressure over the path of contact, GPa",
-        "Slide-to-roll ratio S over the path of contact",
+        "Slide-to-roll ratio S over the path of contact (thin: the tooth's own)",
         "Radius R of the tooth over the path of contact, mm",
     ];
     let paths = titles.iter().zip(tooth::PATHS).zip(&tooth.paths);
@@ -132,6 +134,22 @@ fn heat(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
     has_any.then(|| grid.into())
 }
 
+/// What a researcher looks for.
+fn analysis(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+    let all = shown.research.iter().map(|what| {
+        let entity = entities::research::entity(*what);
+        views.plot(
+            what.title(),
+            &[&entity],
+            &research::plot_box(),
+            Margin::Plain,
+        )
+    });
+    let all: Vec<ContainerLike> = all.collect();
+    let grid = Grid::new(all).with_grid_columns(2).with_name("Analysis");
+    (!shown.research.is_empty()).then(|| grid.into())
+}
+
 /// What surfaces come to over loading cycles.
 fn ageing(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
     shown.age_cycles?;
@@ -179,7 +197,7 @@ fn contact(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     lower.push(views.plot(centre, &[CENTRE_LINE], &shown.centre_line, Margin::Ticks));
     lower_shares.push(1.0);
     let last = if shown.life {
-        life_series(views, "Life, log10 (grey: band)")
+        life_series(views)
     } else {
         pressure_series(views)
     };
@@ -214,9 +232,8 @@ pub(crate) fn stress(views: &mut Views, shown: &ShownViews, name: &str) -> Optio
     Some(views.plot(&title, &contents, shown.slice.as_ref()?, Margin::Legend))
 }
 
-fn life_series(views: &mut Views, title: &str) -> ContainerLike {
-    // The title says it.
-    views.single(title, LIFE)
+fn life_series(views: &mut Views) -> ContainerLike {
+    views.named("Life, log10", &[LIFE])
 }
 
 fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
@@ -276,9 +293,9 @@ fn point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let cycles = [POINT_CYCLES, "material_point/cycles/formula"];
     let (stress, place) = ("material_point/stress_GPa", "material_point/position_mm");
     let lower = vec![
-        views.named("At the point, GPa", &[stress], &["p", "σ_eff", "τxz"]),
-        views.named("Peaks in this crossing", &cycles, &["so far", "expected"]),
-        views.named("Where the point is, mm", &[place], &["x", "depth"]),
+        views.named("At the point, GPa", &[stress]),
+        views.named("Peaks in this crossing", &cycles),
+        views.named("Where the point is, mm", &[place]),
     ];
     let mut shares = vec![1.6];
     shares.resize(upper.len(), 1.0);
@@ -293,21 +310,14 @@ fn point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
 
 fn life(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let left = Vertical::new([
-        life_series(
-            views,
-            "Life, log10 (grey: band, green: what the mesh costs)",
-        ),
-        views.named(
-            "log10",
-            &["life/log10_factors", "life/log10_factors/load"],
-            &["cycles", "peaks", "traction", "load"],
-        ),
+        life_series(views),
+        views.named("log10", &["life/log10_factors", "life/log10_factors/load"]),
     ]);
     let contacts = |views: &mut Views, body: usize| {
         let entity = |of: &str| format!("life/contacts_per_cycle/n_{body}_{of}");
         let (formula, counted) = (entity("formula"), entity("counted"));
         let title = format!("n of body {body}");
-        views.named(&title, &[&formula, &counted], &["formula", "counted"])
+        views.named(&title, &[&formula, &counted])
     };
     let middle = Vertical::new([
         contacts(views, 1),
@@ -316,7 +326,7 @@ fn life(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     ]);
     let mut right = vec![views.document("Now", text::NOW)];
     if shown.knobs == Knobs::Turn {
-        right.push(views.named("Motion", &["series/motion"], &["S", "its target", "U, m/s"]));
+        right.push(views.named("Motion", &["series/motion"]));
     }
     let right = Vertical::new(right);
     Horizontal::new([left, middle, right].map(ContainerLike::from))
@@ -340,15 +350,8 @@ fn damage_of_both(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike
     (!maps.is_empty()).then(|| Horizontal::new(maps).with_name("Damage").into())
 }
 
-/// What is and what it ramps to.
-const TARGET: [&str; 2] = ["now", "target"];
-
 fn pressure_series(views: &mut Views) -> ContainerLike {
-    views.named(
-        "Pressure, GPa",
-        &["series/pressure_GPa"],
-        &["maximum", "Hertz"],
-    )
+    views.named("Pressure, GPa", &["series/pressure_GPa"])
 }
 
 /// Every scalar against time, where it has no better place.
@@ -356,12 +359,8 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let kind = shown.kind;
     let mut all = vec![
         pressure_series(views),
-        views.named(
-            "Film, µm",
-            &["series/film_um"],
-            &["centre", "mean", "minimum"],
-        ),
-        views.named("Contact, %", &["series/contact_percent"], &["area", "load"]),
+        views.named("Film, µm", &["series/film_um"]),
+        views.named("Contact, %", &["series/contact_percent"]),
         views.single("Friction coefficient", "series/friction"),
         views.single("Regime: 0 dry to 3 full film", "series/regime"),
     ];
@@ -370,14 +369,9 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
             ContactKind::Point => ("Load, N", "series/load_N"),
             ContactKind::Line => ("Load, N/m", "series/load_N_per_m"),
         };
-        let half_width = ["along x", "across"];
         all.extend([
-            views.named(load.0, &[load.1], &TARGET),
-            views.named(
-                "Hertz half-width, µm",
-                &["series/half_width_um"],
-                &half_width,
-            ),
+            views.named(load.0, &[load.1]),
+            views.named("Hertz half-width, µm", &["series/half_width_um"]),
             views.single("λ ratio", "series/lambda_ratio"),
         ]);
     }
@@ -386,7 +380,7 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
             ContactKind::Point => "Yielded for good, µm³",
             ContactKind::Line => "Yielded for good, µm³ per metre",
         };
-        all.push(views.named(title, &[YIELDED], &["body 1", "body 2"]));
+        all.push(views.named(title, &[YIELDED]));
     }
     // What is of heat has a tab of its own.
     let known = by_itself().filter(|quantity| quantity.dimension != Dimension::Temperature);
@@ -401,16 +395,8 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
 
 fn convergence(views: &mut Views) -> ContainerLike {
     Grid::new([
-        views.named(
-            "Errors, log10",
-            &["convergence/log10_errors"],
-            &["residual", "load", "film", "mass"],
-        ),
-        views.named(
-            "Iterations",
-            &["convergence/iterations"],
-            &["Newton", "linear", "retries", "converged (1)"],
-        ),
+        views.named("Errors, log10", &["convergence/log10_errors"]),
+        views.named("Iterations", &["convergence/iterations"]),
         views.switches("Cautions (1: holds)", "series/cautions"),
         TextLogView::new("Log").with_origin("/log").into(),
     ])
@@ -419,7 +405,8 @@ fn convergence(views: &mut Views) -> ContainerLike {
     .into()
 }
 
-fn scene(views: &mut Views) -> ContainerLike {
+/// The scene, what is planned, and what the numbers mean.
+pub(crate) fn scene(views: &mut Views) -> ContainerLike {
     Horizontal::new([
         views.document("About", text::ABOUT),
         views.document("Scene (TOML)", text::SCENE_TOML),

@@ -12,11 +12,9 @@ use rerun::external::re_sdk_types::blueprint::archetypes::{
 use rerun::{AsComponents, Color};
 
 use crate::colour::BACKGROUND;
-use crate::colour::curve::word;
 use crate::entities::maps;
 use crate::entities::space::{SPACE, UPPER_BODY, UPPER_LABELS};
 use crate::plot::{Margin, PlotBox};
-use crate::series;
 
 /// A property of a view and the path it goes to.
 pub(crate) struct Property {
@@ -138,16 +136,11 @@ impl Views {
         view
     }
 
-    /// Curves whose title names each with its colour: the viewer's legends know no place but a corner among the curves.
-    /// The names are those of the entities' lines in their order.
-    pub(crate) fn named(&mut self, what: &str, entities: &[&str], names: &[&str]) -> ContainerLike {
-        let colours = entities.iter().flat_map(|entity| series::colours(entity));
-        let lines = names.iter().zip(colours);
-        let lines: Vec<String> = lines
-            .map(|(name, colour)| format!("{name} {}", word(colour)))
-            .collect();
-        let view = self.series(&format!("{what}: {}", lines.join(", ")), entities);
-        self.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
+    /// Curves with the viewer's legend.
+    pub(crate) fn named(&mut self, what: &str, entities: &[&str]) -> ContainerLike {
+        let view = self.series(what, entities);
+        let legend = PlotLegend::new().with_corner(Corner2D::RightTop);
+        self.set(&view, "PlotLegend", legend);
         view
     }
 
