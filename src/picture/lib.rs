@@ -28,6 +28,8 @@ mod scope;
 #[cfg(not(target_arch = "wasm32"))]
 mod spectra;
 #[cfg(not(target_arch = "wasm32"))]
+pub mod tooth;
+#[cfg(not(target_arch = "wasm32"))]
 mod trace;
 #[cfg(not(target_arch = "wasm32"))]
 mod window;

@@ -42,8 +42,8 @@ pub(crate) fn send(stream: &Stream, shown: &ShownViews) -> Result<(), ObserveErr
 /// Sends what there is to see before the first frame: what runs, in words.
 pub(crate) fn send_early(stream: &Stream) -> Result<(), ObserveError> {
     let mut views = Views::default();
-    let scene = tabs::scene(&mut views);
-    send_played(stream, vec![scene], &views.properties, true, None)
+    let words = tabs::before_the_first_frame(&mut views);
+    send_played(stream, vec![words], &views.properties, true, None)
 }
 
 /// Sends tabs of what is shown.

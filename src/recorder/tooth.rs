@@ -10,13 +10,11 @@ use super::stream::{Holds, Stream};
 use super::view::View;
 use asperity_engine::math::number::{GPA, MM, nice_ceiling, sig, ticks};
 use asperity_engine::physics::gear::{GearTeeth, LineOfAction};
-use asperity_engine::physics::line::hertz_from_load;
 use asperity_engine::scene::{Scene, Tooth};
 use asperity_engine::sim::Frame;
 use asperity_picture::Scope;
+use asperity_picture::tooth::{PICTURE, PathLines};
 
-/// Width and height of the picture of the gears, in modules.
-const PICTURE: [f64; 2] = [7.2, 5.0];
 /// Height of the curves over their width.
 const HEIGHT: f64 = 0.26;
 const CURVES: [[u8; 3]; 3] = [ORANGE, PURPLE, SKY];
@@ -48,11 +46,12 @@ impl ToothEntity {
         for (outline, colour) in OUTLINES.into_iter().zip([SKY, WHITE]) {
             stream.log_static(outline, &line(colour, 1.25));
         }
-        let path =
-            |k: usize, lines| PathCurve::new(stream, PATHS[k], lines, CURVES[k], &line_of_action);
-        let [pressure, sliding, radius] = path_curves(scene, &tooth, &line_of_action);
+        let path = |k: usize, lines: &PathLines| {
+            PathCurve::new(stream, PATHS[k], lines, CURVES[k], &line_of_action)
+        };
+        let [pressure, sliding, radius] = PathLines::of(scene, &tooth, &line_of_action);
         Some(Self {
-            paths: [path(0, pressure), path(1, sliding), path(2, radius)],
+            paths: [path(0, &pressure), path(1, &sliding), path(2, &radius)],
             tooth,
             gears,
             line: line_of_action,
@@ -108,82 +107,16 @@ pub(crate) struct ShownTooth {
     pub(crate) paths: [PlotBox; 3],
 }
 
-/// A curve over the path: mm from A, value.
-type PathValues = Vec<[f64; 2]>;
-
-/// What the run has, and what it stands for where that is another.
-struct PathLines {
-    run: PathValues,
-    tooth: PathValues,
-}
-
-/// Hertz pressure and sliding by the script, which changes them in steps; sliding and radius of the tooth itself.
-fn path_curves(scene: &Scene, tooth: &Tooth, line: &LineOfAction) -> [PathLines; 3] {
-    let e_prime_pa = scene.e_prime_pa();
-    let scripted = |key: &str, value: &dyn Fn(f64) -> f64| {
-        let set = scene.events.iter().filter_map(|event| {
-            let place_mm = (tooth.place_m(line, event.at_s) - line.a) * MM;
-            Some([place_mm, value(*event.set.get(key)?)])
-        });
-        in_steps(set, (line.e - line.a) * MM)
-    };
-    let gears = tooth.gears();
-    let over = |value: &dyn Fn(f64) -> f64| -> PathValues {
-        (0..=48)
-            .map(|k| line.a + (line.e - line.a) * f64::from(k) / 48.0)
-            .map(|place_m| [(place_m - line.a) * MM, value(place_m)])
-            .collect()
-    };
-    // U2/U1 = ω2 ρ2/(ω1 ρ1).
-    let ratio = f64::from(gears.teeth[0]) / f64::from(gears.teeth[1]);
-    let sliding = over(&|s| {
-        let (one, two) = (s, ratio * (line.length - s));
-        2.0 * (two - one) / (two + one)
-    });
-    let pressure = |load: f64| {
-        let hertz = hertz_from_load(scene.contact.rx_m, e_prime_pa, load);
-        GPA.of(hertz.p_max_pa)
-    };
-    [
-        PathLines {
-            run: scripted("load.force_n_per_m", &pressure),
-            tooth: Vec::new(),
-        },
-        PathLines {
-            run: scripted("motion.slide_roll", &|slide_roll| slide_roll),
-            tooth: sliding,
-        },
-        PathLines {
-            run: over(&|s| MM * s * (line.length - s) / line.length),
-            tooth: Vec::new(),
-        },
-    ]
-}
-
-/// Values that hold from their place to the next, or to the end.
-fn in_steps(set: impl Iterator<Item = [f64; 2]>, end: f64) -> PathValues {
-    let mut steps: PathValues = Vec::new();
-    for [place, value] in set.filter(|[place, _]| *place < end) {
-        if let Some([_, before]) = steps.last().copied() {
-            steps.push([place, before]);
-        }
-        steps.push([place, value]);
-    }
-    let last = steps.last().map(|[_, value]| [end, *value]);
-    steps.extend(last);
-    steps
-}
-
 impl PathCurve {
     fn new(
         stream: &Stream,
         entity: &'static str,
-        lines: PathLines,
+        lines: &PathLines,
         colour: [u8; 3],
         line_of_action: &LineOfAction,
     ) -> Self {
         let PathLines { run, tooth } = lines;
-        let all = || run.iter().chain(&tooth).map(|[_, y]| *y);
+        let all = || run.iter().chain(tooth).map(|[_, y]| *y);
         let (minimum, maximum) = (all().fold(0.0, f64::min), all().fold(0.0, f64::max));
         let top = nice_ceiling(maximum.max(1e-9));
         let range = [
@@ -207,7 +140,7 @@ impl PathCurve {
         for (part, values, colour, radius) in
             [("tooth", tooth, GREY, 0.75), ("curve", run, colour, 1.5)]
         {
-            let strip = values.into_iter().map(|[x, y]| [x, height(y, range, long)]);
+            let strip = values.iter().map(|[x, y]| [*x, height(*y, range, long)]);
             let strip = points(&strip.collect::<Vec<_>>());
             let curve = line(colour, radius).with_strips([strip]);
             stream.log_static(format!("{entity}/{part}"), &curve);
@@ -317,17 +250,4 @@ fn log_line(stream: &Stream, gears: &GearTeeth, line_of_action: &LineOfAction) {
     labels.log(stream, &format!("{GEARS}/names"), Holds::Always);
     let contact = dot(ORANGE, 7.0).with_draw_order(28.0);
     stream.log_static(CONTACT, &contact);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_a_script_sets_holds_until_it_is_set_again() {
-        let set = [[0.0, 1.0], [2.0, 3.0], [9.0, 7.0]].into_iter();
-        let steps = in_steps(set, 5.0);
-        assert_eq!(steps, [[0.0, 1.0], [2.0, 1.0], [2.0, 3.0], [5.0, 3.0]]);
-        assert!(in_steps(std::iter::empty(), 5.0).is_empty());
-    }
 }

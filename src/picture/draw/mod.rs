@@ -431,7 +431,7 @@ impl Drawing {
     /// Words on white, whatever was there.
     pub(crate) fn cleared(&mut self, text: Text) {
         if !text.words.is_empty() {
-            self.behind(&text, 0.0, [255; 3]);
+            self.behind(&text, 0.15, [255; 3]);
             self.text(text);
         }
     }

@@ -18,6 +18,7 @@ mod plotted;
 mod profile;
 mod series;
 mod sheet;
+mod tooth_page;
 mod vtk;
 mod white;
 

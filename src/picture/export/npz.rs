@@ -48,11 +48,11 @@ impl<W: Write> Npz<W> {
         let mut checksum = Hasher::new();
         checksum.update(&bytes);
         let (length, mut bytes) = (bytes.len() as u64, &bytes[..]);
-        self.from_file(name, shape, values.kind(), length, &checksum, &mut bytes)
+        self.array_of_file(name, shape, values.kind(), length, &checksum, &mut bytes)
     }
 
     /// The same of values that lie in a file, whose length and checksum are known.
-    pub(super) fn from_file(
+    pub(super) fn array_of_file(
         &mut self,
         name: &str,
         shape: &[usize],

@@ -11,13 +11,14 @@ use super::passage;
 use super::plotted;
 use super::profile::ProfilePage;
 use super::sheet::{Heading, PrintSize, Sheet};
+use super::tooth_page;
 use crate::draw::Drawing;
 use crate::plot::Plot;
 use crate::{
     Look, NodeAxis, Picture, PointTrace, Ramp, Ranges, ResearchData, ResearchPlot, Scope, Spectra,
     Subject, Window,
 };
-use asperity_engine::math::number::{GPA, Unit, plain, seconds};
+use asperity_engine::math::number::{GPA, Unit, seconds, tick, trimmed};
 use asperity_engine::scene::{ContactKind, Scene};
 use asperity_engine::sim::{DamageBlock, Frame};
 
@@ -131,8 +132,19 @@ impl Pictures {
 
     /// Whether there is something to plot.
     fn has(&self, page: Page, frame: &Frame) -> bool {
-        let Page::Research(what) = page else {
-            return true;
+        let what = match page {
+            Page::Research(what) => what,
+            Page::Tooth => {
+                let scene = self.scene.as_ref();
+                return tooth_page::rides(scene.and_then(|scene| scene.tooth.as_ref()));
+            }
+            Page::Map(_)
+            | Page::CentreLine
+            | Page::Profile
+            | Page::Passage
+            | Page::OverTime(_)
+            | Page::LifeOverTime
+            | Page::Damage(_) => return true,
         };
         let ranges = match &self.scope {
             Some(scope) => scope.ranges,
@@ -192,6 +204,10 @@ impl Pictures {
                 history.over_time(subject, frame, &ranges, &sheet, x_title)
             }
             Page::LifeOverTime => self.history.life(&sheet),
+            Page::Tooth => {
+                let scene = self.scene.as_ref();
+                scene.and_then(|scene| tooth_page::draw(frame, scene, &sheet, x_title))
+            }
             Page::Research(what) => {
                 let plot = self.research(what, frame, &ranges);
                 plot.map(|plot| plotted::draw(&plot, &sheet))
@@ -234,12 +250,14 @@ pub(super) enum Page {
     LifeOverTime,
     /// What a researcher looks for.
     Research(ResearchPlot),
+    /// Where on a gear's tooth the contact is.
+    Tooth,
     /// Damage collected by a block of body 1 (0) or 2 (1).
     Damage(usize),
 }
 
 /// The pages and the names of their files.
-const PAGES: [(&str, Page); 26] = [
+const PAGES: [(&str, Page); 27] = [
     ("pressure", Page::Map(Subject::Pressure)),
     ("film", Page::Map(Subject::Film)),
     ("interferogram", Page::Map(Subject::Interferogram)),
@@ -266,6 +284,7 @@ const PAGES: [(&str, Page); 26] = [
     ),
     ("film_rise_over_time", Page::OverTime(Subject::OilRise)),
     ("life_over_time", Page::LifeOverTime),
+    ("tooth", Page::Tooth),
     ("stress_path", Page::Research(ResearchPlot::StressPath)),
     ("sn_point", Page::Research(ResearchPlot::SnPoint)),
     ("spectra", Page::Research(ResearchPlot::Spectra)),
@@ -282,6 +301,7 @@ impl Page {
         match self {
             Self::LifeOverTime => "Relative life, log10, with its band",
             Self::Research(what) => what.title(),
+            Self::Tooth => "Where on the tooth the contact is",
             Self::Map(subject) | Self::OverTime(subject) => subject.title(),
             Self::CentreLine => "Pressure and film at y = 0",
             Self::Profile => "Surfaces and what is between them at y = 0",
@@ -295,6 +315,7 @@ impl Page {
         match self {
             Self::Damage(_) => "distance along the surface from a crest, mm",
             Self::LifeOverTime => "time, ms",
+            Self::Tooth => "path of contact from A, mm",
             // They have their own.
             Self::Research(_) => "",
             Self::Map(_) | Self::CentreLine | Self::Profile | Self::Passage | Self::OverTime(_) => {
@@ -307,9 +328,10 @@ impl Page {
     fn is_in(self, frame: &Frame) -> bool {
         let subject = match self {
             Self::Map(subject) => subject,
-            Self::CentreLine | Self::Profile | Self::Passage => return true,
-            // What has been before it tells.
-            Self::Research(_) => return true,
+            // Of some what has been, or the scene tells more.
+            Self::CentreLine | Self::Profile | Self::Passage | Self::Research(_) | Self::Tooth => {
+                return true;
+            }
             Self::OverTime(subject) => return subject.field(frame).is_some(),
             Self::LifeOverTime => {
                 let life = frame.metrics.life.as_ref();
@@ -376,9 +398,9 @@ fn state(frame: &Frame) -> String {
         "step {}, t = {}, S = {}, U = {} m/s, load {} {unit}, Hertz {}",
         frame.step,
         seconds(frame.time_s),
-        plain(m.slide_roll),
-        plain(m.entrainment_m_s),
-        plain(m.load_n),
+        tick(m.slide_roll),
+        tick(m.entrainment_m_s),
+        trimmed(m.load_n, 4),
         GPA.show(frame.p_hertz_pa, 4),
     )
 }
@@ -388,7 +410,7 @@ fn moving_state(frame: &Frame) -> String {
     format!(
         "t = {}, S = {}",
         seconds(frame.time_s),
-        plain(frame.metrics.slide_roll),
+        tick(frame.metrics.slide_roll),
     )
 }
 
@@ -396,8 +418,9 @@ fn moving_state(frame: &Frame) -> String {
 mod tests {
     #![expect(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use asperity_engine::physics::gear::GearTeeth;
     use asperity_engine::plan::Plan;
-    use asperity_engine::scene::Override;
+    use asperity_engine::scene::{Override, Tooth};
     use asperity_engine::sim::Simulation;
 
     /// A run's first steps and its pictures.
@@ -408,7 +431,18 @@ mod tests {
             "heat.thermal_conductivity_w_mk=0.14",
         ];
         let sets: Vec<Override> = sets.iter().map(|set| set.parse().unwrap()).collect();
-        let scene = Scene::load_with(preset, &sets).unwrap();
+        let mut scene = Scene::load_with(preset, &sets).unwrap();
+        if scene.kind() == ContactKind::Line {
+            // With the page of a ride along it.
+            let gears = GearTeeth {
+                teeth: [16, 24],
+                module_m: 4.5e-3,
+                pressure_angle_rad: 20_f64.to_radians(),
+                centre_distance_m: 91.5e-3,
+                tip_diameters_m: [82.46e-3, 118.36e-3],
+            };
+            scene.tooth = Some(Tooth::of(&gears, 100.0));
+        }
         let mut simulation = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
         let (mut pictures, mut frame) = (Pictures::new(&scene), Frame::default());
         let mut shown = Frame::default();

@@ -10,7 +10,7 @@ use crate::plot::{Plot, PlotAxis, Tone};
 /// Height over width.
 const HEIGHT: f64 = 0.62;
 /// Body 2.
-const SECOND: Rgb = [148, 80, 130];
+pub(super) const SECOND: Rgb = [148, 80, 130];
 
 fn colour(tone: Tone) -> Rgb {
     match tone {

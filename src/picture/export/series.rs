@@ -120,7 +120,7 @@ impl Series {
             }
             stack.file.rewind()?;
             let (bytes, checksum) = (stack.bytes, &stack.checksum);
-            npz.from_file(
+            npz.array_of_file(
                 stack.name,
                 &stack.shape,
                 stack.kind,

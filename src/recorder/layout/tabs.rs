@@ -405,8 +405,15 @@ fn convergence(views: &mut Views) -> ContainerLike {
     .into()
 }
 
-/// The scene, what is planned, and what the numbers mean.
-pub(crate) fn scene(views: &mut Views) -> ContainerLike {
+/// What runs, while there is no picture of it.
+pub(crate) fn before_the_first_frame(views: &mut Views) -> ContainerLike {
+    let about = views.document("Starts: pictures come with its first step", text::ABOUT);
+    Horizontal::new([about, views.document("Plan", text::PLAN)])
+        .with_name("Starts")
+        .into()
+}
+
+fn scene(views: &mut Views) -> ContainerLike {
     Horizontal::new([
         views.document("About", text::ABOUT),
         views.document("Scene (TOML)", text::SCENE_TOML),
