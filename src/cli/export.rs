@@ -20,8 +20,9 @@ use super::failure::Failure;
 pub(crate) fn export(args: &ExportArgs) -> Result<u8, Failure> {
     refuse_unknown_pictures(&args.show)?;
     let started = Instant::now();
-    let read = RecordedFrames::read(&args.file);
-    let frames = read.map_err(|error| Failure::input(miette::miette!("{error}")))?;
+    let read = RecordedFrames::read_all(&args.file);
+    let mut runs = read.map_err(|error| Failure::input(miette::miette!("{error}")))?;
+    let frames = runs.remove(0);
     tell_where_it_breaks_off(&args.file, &frames);
     let read_s = started.elapsed().as_secs_f64();
     let stem = args.file.file_stem().unwrap_or_default().to_string_lossy();
@@ -34,8 +35,8 @@ pub(crate) fn export(args: &ExportArgs) -> Result<u8, Failure> {
         program: frames.program.clone(),
         began: asperity_engine::observe::Began::FromScene,
     };
-    let written =
-        pictures(args, &frames, &folder, &context)? + table(args, &frames, &folder, &context)?;
+    let written = pictures(args, &frames, runs, &folder, &context)?
+        + table(args, &frames, &folder, &context)?;
     let all_s = started.elapsed().as_secs_f64();
     let text = format!(
         "{}: {} of {} with pictures read in {}; {} written in {}\n",
@@ -73,6 +74,7 @@ fn refuse_unknown_pictures(asked: &[String]) -> Result<(), Failure> {
 fn pictures(
     args: &ExportArgs,
     frames: &RecordedFrames,
+    others: Vec<RecordedFrames>,
     folder: &Path,
     context: &RunContext,
 ) -> Result<u64, Failure> {
@@ -82,9 +84,10 @@ fn pictures(
         font_pt: args.font_pt,
     };
     let overwrite = Overwrite::from_force(args.force);
-    let others: Result<Vec<Other>, Failure> =
-        args.beside.iter().map(|path| Other::read(path)).collect();
-    let others = others?;
+    let mut others: Vec<Other> = others.into_iter().map(Other::new).collect();
+    for path in &args.beside {
+        others.push(Other::read(path)?);
+    }
     let export = Export::create(folder, overwrite, &args.formats)?
         .of(&args.show, print)
         .alone(args.every.is_none());
@@ -101,7 +104,7 @@ fn pictures(
     for between in frames.steps() {
         let step = between.step;
         if shown.binary_search(&step).is_err() {
-            export.pass(&between);
+            export.pass(0, &between);
             continue;
         }
         let is_whole = whole.binary_search(&step).is_ok();
@@ -117,6 +120,11 @@ fn pictures(
         let Some(frame) = frames.frame(step) else {
             continue;
         };
+        for (k, other) in others.iter_mut().enumerate() {
+            while let Some(before) = other.next_before(frame.time_s) {
+                export.pass(k + 1, &before);
+            }
+        }
         let others = others.iter().map(|other| other.nearest(frame.time_s));
         let Some(others) = others.collect::<Option<Vec<_>>>() else {
             continue;
@@ -132,6 +140,9 @@ struct Other {
     frames: RecordedFrames,
     /// Steps with pictures and their times, s.
     times_s: Vec<(u64, f64)>,
+    /// Its steps, of which so many have passed.
+    steps: Vec<Frame>,
+    passed: usize,
 }
 
 impl Other {
@@ -139,11 +150,24 @@ impl Other {
         let read = RecordedFrames::read(path);
         let frames = read.map_err(|error| Failure::input(miette::miette!("{error}")))?;
         tell_where_it_breaks_off(path, &frames);
-        let shown = frames.shown();
-        let is_shown = |frame: &Frame| shown.binary_search(&frame.step).is_ok();
-        let steps = frames.steps().filter(is_shown);
-        let times_s = steps.map(|frame| (frame.step, frame.time_s)).collect();
-        Ok(Self { frames, times_s })
+        Ok(Self::new(frames))
+    }
+
+    fn new(frames: RecordedFrames) -> Self {
+        Self {
+            times_s: frames.shown_at(),
+            steps: frames.steps().collect(),
+            passed: 0,
+            frames,
+        }
+    }
+
+    /// The next of its steps before a time.
+    fn next_before(&mut self, time_s: f64) -> Option<Frame> {
+        let next = self.steps.get(self.passed);
+        let next = next.filter(|frame| frame.time_s < time_s).cloned();
+        self.passed += usize::from(next.is_some());
+        next
     }
 
     /// The picture nearest to a time; `None` before its first and after its last by more than they are apart.

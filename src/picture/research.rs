@@ -71,6 +71,8 @@ pub struct ResearchData<'a> {
     pub spectra: &'a Spectra,
     /// Ranges of the run.
     pub ranges: &'a Ranges,
+    /// Whether others stand beside it, so that logarithmic axes are long.
+    pub is_shared: bool,
 }
 
 impl ResearchData<'_> {
@@ -78,7 +80,7 @@ impl ResearchData<'_> {
     pub fn plot(&self, what: ResearchPlot, frame: &Frame) -> Option<Plot> {
         match what {
             ResearchPlot::StressPath => self.stress_path(frame),
-            ResearchPlot::SnPoint => sn_point(self.scene, frame),
+            ResearchPlot::SnPoint => sn_point(self.scene, frame, self.is_shared),
             ResearchPlot::Spectra => self.spectra(),
             ResearchPlot::AmplitudeRatio => self.amplitude_ratio(frame),
         }
@@ -264,7 +266,9 @@ fn stress_exponent(life: &Life) -> f64 {
 }
 
 /// The smooth contact and this one on the line N ∝ σ^−s, and what cycles make of it.
-fn sn_point(scene: &Scene, frame: &Frame) -> Option<Plot> {
+fn sn_point(scene: &Scene, frame: &Frame, is_shared: bool) -> Option<Plot> {
+    /// Least life on an axis that others have too.
+    const SHARED: f64 = 1e-4;
     let life = frame.metrics.life.as_ref()?;
     let usual = Life::default();
     let exponent = stress_exponent(scene.life.as_ref().unwrap_or(&usual));
@@ -281,6 +285,7 @@ fn sn_point(scene: &Scene, frame: &Frame) -> Option<Plot> {
     };
     let least = all.iter().fold(1.0, |least: f64, life| least.min(*life));
     let most = all.iter().fold(1.0, |most: f64, life| most.max(*life));
+    let least = if is_shared { least.min(SHARED) } else { least };
     let x = [decade(0.5 * least, false), decade(2.0 * most, true)];
     let shown = [x[1], x[0]].map(stress_of);
     let mark = |at, tone, label: String| PlotMark {
@@ -378,7 +383,7 @@ mod tests {
             cycle_factor: 0.8,
             ..Default::default()
         });
-        let plot = sn_point(&scene, &frame).unwrap();
+        let plot = sn_point(&scene, &frame, false).unwrap();
         let exponent = stress_exponent(&Life::default());
         let [smooth, stressed, counted] = [0, 1, 2].map(|k| plot.marks[k].at);
         assert_eq!(smooth, [1.0, 1.0]);

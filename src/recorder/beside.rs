@@ -18,7 +18,7 @@ use rerun::{Color, SeriesLines, TextDocument};
 
 pub use self::keyed::{ComparedBy, RunBeside};
 use self::keyed::{KeyedRun, less};
-use self::layout::RUNS;
+pub(crate) use self::layout::RUNS;
 use super::colour::curve::{GREEN, SKY, VERMILION};
 use super::entities::series::{LIFE, POINT_CYCLES};
 use super::entities::{self, DIFFERENCE, SCALARS};

@@ -15,6 +15,7 @@ use rerun::{
     TextDocument,
 };
 
+use super::beside::RUNS;
 use super::classes;
 use super::entities::{DAMAGE, GRID, SCALARS, damage_block, maps, slice, text};
 use super::levels::values_of;
@@ -65,6 +66,8 @@ pub struct RecordedFrames {
 /// What is collected from the chunks.
 #[derive(Default)]
 struct FoundRows {
+    /// What stands before the names of the run's entities.
+    under: String,
     /// Program and scene.
     origin: Option<(String, String)>,
     grid: Vec<f64>,
@@ -91,11 +94,36 @@ impl RecordedFrames {
     /// When it cannot be read, is damaged, is no recording of this version, or holds no picture. One that breaks off is
     /// read up to there ([`RecordedFrames::broken_off`]).
     pub fn read(path: &Path) -> Result<Self, RereadError> {
+        Self::read_under(path, "")
+    }
+
+    /// Reads a recording of one run, or of runs side by side in their order; of these, steps of pictures are those of the
+    /// first.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read).
+    pub fn read_all(path: &Path) -> Result<Vec<Self>, RereadError> {
+        let alone = Self::read(path);
+        if alone.is_ok() {
+            return alone.map(|run| vec![run]);
+        }
+        let runs = RUNS
+            .iter()
+            .map(|run| Self::read_under(path, &format!("{run}/")));
+        // What is no recording of several is refused in the words for one.
+        match runs.filter_map(Result::ok).collect::<Vec<_>>() {
+            runs if runs.is_empty() => alone.map(|run| vec![run]),
+            runs => Ok(runs),
+        }
+    }
+
+    /// Reads the run whose entities have that before their names.
+    fn read_under(path: &Path, under: &str) -> Result<Self, RereadError> {
         let refused = |reason: String| RereadError {
             path: path.display().to_string(),
             reason,
         };
-        let found = FoundRows::read(path).map_err(refused)?;
+        let found = FoundRows::read(path, under).map_err(refused)?;
         let no_run = match &found.broken_off {
             None => {
                 "holds no run: not recorded by this version of asperity, or several side by side"
@@ -158,6 +186,16 @@ impl RecordedFrames {
         let has_row = |step: &i64| self.row(*step).is_some();
         let steps = pictures.map(|(step, _)| *step).filter(has_row);
         steps.filter_map(|step| u64::try_from(step).ok()).collect()
+    }
+
+    /// Those of them with the time, s, of what they show: of runs side by side, where steps are those of the first, their own.
+    pub fn shown_at(&self) -> Vec<(u64, f64)> {
+        let shown = self.shown().into_iter();
+        let at = shown.filter_map(|step| {
+            let frame = self.scalars(self.row(i64::try_from(step).ok()?)?)?;
+            Some((step, frame.time_s))
+        });
+        at.collect()
     }
 
     /// Those of them whose fields are all their own.
@@ -327,8 +365,11 @@ fn value_of(half: u16) -> f32 {
 }
 
 impl FoundRows {
-    fn read(path: &Path) -> Result<Self, String> {
-        let mut found = Self::default();
+    fn read(path: &Path, under: &str) -> Result<Self, String> {
+        let mut found = Self {
+            under: under.to_owned(),
+            ..Self::default()
+        };
         let read = messages::read_file(path, |data| {
             Note::all_in(data, |note| found.take_note(note));
             // What is no chunk is none of the recording's own.
@@ -412,7 +453,11 @@ impl FoundRows {
 
     fn take(&mut self, chunk: &Chunk) {
         let path = chunk.entity_path().to_string();
-        let entity = path.trim_start_matches('/');
+        let Some(entity) = path.trim_start_matches('/').strip_prefix(&self.under) else {
+            return;
+        };
+        let entity = entity.to_owned();
+        let entity = entity.as_str();
         let steps = chunk.timelines().get(&STEP.into());
         let steps = steps.map_or(&[][..], |column| column.times_raw());
         if let Some(image) = entity.strip_suffix("/image") {
@@ -442,6 +487,11 @@ impl FoundRows {
                 &mut self.lectures
             };
             all.extend(steps.iter().copied().zip(texts));
+        } else if entity == text::SCENE_TOML && !self.under.is_empty() {
+            // Runs side by side are not repeated from there, so that they have no note of it.
+            let scene = strings(chunk, TextDocument::descriptor_text().component);
+            let scene = scene.into_iter().next();
+            self.origin = scene.map(|scene| ("a recording side by side".to_owned(), scene));
         } else {
             let of_body = |body: usize| damage_block(DAMAGE[body]) == entity;
             let place = match entity {

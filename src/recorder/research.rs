@@ -87,6 +87,7 @@ impl View for ResearchEntity {
             trace: &self.trace,
             spectra: &self.spectra,
             ranges: &self.ranges,
+            is_shared: false,
         };
         let is_due = self.pictures.is_multiple_of(SELDOM);
         self.pictures += 1;

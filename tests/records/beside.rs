@@ -266,6 +266,37 @@ fn moments_are_common_and_at_most_a_step_apart() {
     }
 }
 
+/// Runs side by side come back as those that were recorded alone: numbers to the bit, pressure to a level.
+#[test]
+fn runs_side_by_side_are_read_back_one_by_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let [one, two, out] = ["a.rrd", "b.rrd", "both.rrd"].map(|name| folder.path().join(name));
+    record(&one, STEPS, |_| {});
+    record(&two, STEPS, |frame| {
+        frame.metrics.friction_coefficient = 0.0789;
+        frame.pressure_pa.iter_mut().for_each(|p| *p *= 0.5);
+    });
+    beside(&[&one, &two], &out, ComparedBy::Time).unwrap();
+    let both = RecordedFrames::read_all(&out).unwrap();
+    assert_eq!(both.len(), 2);
+    for (run, own) in both.iter().zip([&one, &two]) {
+        let alone = RecordedFrames::read_all(own).unwrap();
+        let [alone] = alone.as_slice() else {
+            panic!("one run is not one");
+        };
+        assert_eq!(run.scene_toml, alone.scene_toml);
+        assert!(run.shown_at().len() > 4);
+        for (step, time_s) in run.shown_at() {
+            let (frame, own) = (run.frame(step).unwrap(), alone.frame(step).unwrap());
+            assert_eq!((time_s, &frame.metrics), (own.time_s, &own.metrics));
+            let top = own.pressure_pa.iter().fold(0.0_f32, |top, p| top.max(*p));
+            let pairs = frame.pressure_pa.iter().zip(&own.pressure_pa);
+            let off = pairs.fold(0.0_f32, |off, (one, two)| off.max((one - two).abs()));
+            assert!(off < 1e-3 * top, "{step}: {off} of {top}");
+        }
+    }
+}
+
 #[test]
 fn what_has_no_common_picture_is_refused_in_words() {
     let folder = tempfile::tempdir().unwrap();

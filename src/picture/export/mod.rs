@@ -292,9 +292,11 @@ impl Export {
         Ok(())
     }
 
-    /// Takes up a step of the first run without fields, for what pictures show of the followed point.
-    pub fn pass(&mut self, frame: &Frame) {
-        self.pictures[0].pass(frame);
+    /// Takes up a step of a run, counted from 0, without fields, for what pictures show of the followed point.
+    pub fn pass(&mut self, run: usize, frame: &Frame) {
+        if let Some(pictures) = self.pictures.get_mut(run) {
+            pictures.pass(frame);
+        }
     }
 
     fn draws(&self) -> bool {

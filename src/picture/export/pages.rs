@@ -125,6 +125,7 @@ impl Pictures {
             trace: &self.trace,
             spectra: &self.spectra,
             ranges,
+            is_shared: self.is_shared,
         };
         let plot = data.plot(what, frame)?;
         Some(if self.is_shared { plot } else { plot.fitted() })
