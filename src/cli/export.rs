@@ -94,6 +94,12 @@ fn pictures(
     let scenes = others.iter().map(|other| &*other.frames.scene);
     let mut export = export.beside(scenes);
     export.begin(context)?;
+    let all = std::iter::once(frames).chain(others.iter().map(|other| &other.frames));
+    for (k, run) in all.enumerate() {
+        if let Some(last) = run.last_band() {
+            export.end(k, last);
+        }
+    }
     let (whole, shown) = (frames.whole(), frames.shown());
     // A still has all that the run's own export has; the shear and the roughness are in every second picture.
     let one = match args.step {

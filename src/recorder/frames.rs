@@ -17,6 +17,7 @@ use rerun::{
 
 use super::beside::RUNS;
 use super::classes;
+use super::entities::series::LIFE_BAND;
 use super::entities::{DAMAGE, GRID, SCALARS, damage_block, maps, slice, text};
 use super::levels::values_of;
 use super::messages::{self, Ends, FileRead};
@@ -60,6 +61,8 @@ pub struct RecordedFrames {
     texts: Vec<(i64, String)>,
     /// The same for an audience.
     lectures: Vec<(i64, String)>,
+    /// Of the life, with what the mesh costs.
+    band: Option<[f64; 2]>,
     broken_off: Option<String>,
 }
 
@@ -81,6 +84,7 @@ struct FoundRows {
     lectures: Vec<(i64, String)>,
     /// Entities whose looks are there: pictures of them follow.
     announced: BTreeSet<String>,
+    band: Option<[f64; 2]>,
     /// Last step, and whether nothing comes after it.
     reach: Option<(u64, bool)>,
     /// Where and why it breaks off, in words.
@@ -153,6 +157,7 @@ impl RecordedFrames {
             pictures: found.pictures,
             texts: found.texts,
             lectures: found.lectures,
+            band: found.band,
             broken_off: found.broken_off,
         };
         if frames.shown().is_empty() || frames.steps().count() < frames.rows.len() {
@@ -164,6 +169,13 @@ impl RecordedFrames {
     /// Where and why the recording breaks off, in words; `None`: it is whole.
     pub fn broken_off(&self) -> Option<&str> {
         self.broken_off.as_deref()
+    }
+
+    /// The last step, and the band of its life with what the mesh costs, which only the end of a run knows; `None`: the run
+    /// has none, or was stopped.
+    pub fn last_band(&self) -> Option<(u64, [f64; 2])> {
+        let (step, _) = self.rows.last()?;
+        Some((u64::try_from(*step).ok()?, self.band?))
     }
 
     fn pictures_of(&self, entity: &str) -> &[(i64, Image)] {
@@ -487,6 +499,12 @@ impl FoundRows {
                 &mut self.lectures
             };
             all.extend(steps.iter().copied().zip(texts));
+        } else if entity == LIFE_BAND {
+            let logs = numbers(chunk).next_back();
+            let ends = logs.and_then(|logs| <[f64; 2]>::try_from(logs).ok());
+            self.band = ends
+                .map(|logs| logs.map(|log| 10_f64.powf(log)))
+                .or(self.band);
         } else if entity == text::SCENE_TOML && !self.under.is_empty() {
             // Runs side by side are not repeated from there, so that they have no note of it.
             let scene = strings(chunk, TextDocument::descriptor_text().component);

@@ -422,5 +422,11 @@ mod from_a_recording {
         assert!(!last.text(step).is_empty());
         let text = last.text(u64::try_from(i64::MAX).unwrap());
         assert!(text.contains("with what the mesh costs"), "{text}");
+        // Pictures say the same of the last step.
+        let (of, band) = last.last_band().unwrap();
+        assert_eq!(Some(of), last.steps().last().map(|frame| frame.step));
+        for (value, end) in band.iter().zip(ends) {
+            assert!((value / end - 1.0).abs() < 1e-12, "{value} {end}");
+        }
     }
 }

@@ -292,6 +292,13 @@ impl Export {
         Ok(())
     }
 
+    /// Tells the band of a run's life with what the mesh costs, which its last step is shown with.
+    pub fn end(&mut self, run: usize, last: (u64, [f64; 2])) {
+        if let Some(pictures) = self.pictures.get_mut(run) {
+            pictures.end(last);
+        }
+    }
+
     /// Takes up a step of a run, counted from 0, without fields, for what pictures show of the followed point.
     pub fn pass(&mut self, run: usize, frame: &Frame) {
         if let Some(pictures) = self.pictures.get_mut(run) {

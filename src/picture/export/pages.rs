@@ -33,6 +33,8 @@ pub(super) struct Pictures {
     trace: PointTrace,
     spectra: Spectra,
     history: History,
+    /// The last step, and the band of its life with what the mesh costs.
+    last: Option<(u64, [f64; 2])>,
 }
 
 impl Pictures {
@@ -46,6 +48,7 @@ impl Pictures {
             trace: PointTrace::default(),
             spectra: Spectra::default(),
             history: History::default(),
+            last: None,
         }
     }
 
@@ -95,6 +98,11 @@ impl Pictures {
     /// Ranges of a run that begins with that frame.
     pub(super) fn scope(&self, frame: &Frame) -> Scope {
         Scope::of(self.scene.as_ref(), frame)
+    }
+
+    /// Tells the band of the last step.
+    pub(super) fn end(&mut self, last: (u64, [f64; 2])) {
+        self.last = Some(last);
     }
 
     /// Takes up a step without fields.
@@ -172,7 +180,9 @@ impl Pictures {
         let ranges = self.ranges(frame);
         let name = self.scene.as_ref().map_or("", |scene| scene.title.as_str());
         let usual = || format!("{name}: {}", page.title());
-        let life = passage::life(frame).filter(|_| page == Page::Passage);
+        let last = self.last.filter(|(step, _)| *step == frame.step);
+        let life = passage::life(frame, last.map(|(_, band)| band));
+        let life = life.filter(|_| page == Page::Passage);
         let title = life.unwrap_or_else(usual);
         let heading = |state: String| Heading { title, state };
         let sheet = match kind {

@@ -117,15 +117,12 @@ fn met(point: &MaterialPoint) -> [String; 3] {
     ]
 }
 
-/// The life in words, for the heading: what a picture without a word leaves open.
-pub(super) fn life(frame: &Frame) -> Option<String> {
+/// The life in words, for the heading: what a picture without a word leaves open. The band is the step's own, or that of the
+/// run's end.
+pub(super) fn life(frame: &Frame, band: Option<[f64; 2]>) -> Option<String> {
     let life = frame.metrics.life.as_ref()?;
-    let [value, low, high] = [
-        life.life_relative,
-        life.life_relative_low,
-        life.life_relative_high,
-    ]
-    .map(|life| sig(life, 3));
+    let [low, high] = band.unwrap_or([life.life_relative_low, life.life_relative_high]);
+    let [value, low, high] = [life.life_relative, low, high].map(|life| sig(life, 3));
     let slide_roll = sig(frame.metrics.slide_roll, 3);
     Some(format!("S = {slide_roll}: life {value} ({low} to {high})"))
 }
