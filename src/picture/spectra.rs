@@ -175,7 +175,7 @@ impl Spectra {
     }
 
     /// Amplitude of the film over that of both surfaces: length of the wave, m, and ratio. Only where the surfaces have a
-    /// wave: at least half of what they have at any length that the window does not tell from it, and a hundredth of their
+    /// wave: at least half of what they have at any length that the window does not tell from it, and three hundredths of their
     /// greatest. Beside a wave there is what the window makes of it, and nothing to divide by.
     pub(crate) fn ratios(&self) -> Vec<[f64; 2]> {
         let both = self.of(Heights::Both);
@@ -185,7 +185,7 @@ impl Spectra {
             let near =
                 |other: &&[f64; 2]| (1.0 / other[0] - 1.0 / length_m).abs() < 1.0 / longest_m;
             let rivals = both.iter().filter(near).map(|other| other[1]);
-            *amplitude >= 0.5 * rivals.fold(0.0, f64::max) && *amplitude >= 0.01 * greatest
+            *amplitude >= 0.5 * rivals.fold(0.0, f64::max) && *amplitude >= 0.03 * greatest
         };
         let pairs = both.iter().zip(self.of(Heights::Film));
         let pairs = pairs.filter(|(rough, _)| greatest > 0.0 && has_wave(rough));

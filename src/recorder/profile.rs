@@ -21,6 +21,13 @@ use asperity_engine::sim::Frame;
 use asperity_picture::profile::{DEEP, Matter, ProfileColumn, ProfileScale, SurfaceProfile, oil};
 use asperity_picture::{ABOVE, CONTACT, Look, Ranges, Scope, Subject};
 
+/// How much is written above a profile: of several beside each other there is little room.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TitleRoom {
+    All,
+    Some,
+}
+
 /// Height of the picture over its width.
 const HEIGHT: f64 = 0.46;
 /// Room between it and the trace, over its width: titles of the trace.
@@ -30,7 +37,7 @@ const PIXELS: [usize; 2] = [120, 54];
 /// Columns of oil.
 const COLUMNS: usize = 192;
 /// Radius of a column over its width: they overlap, so that no seam is seen between them.
-const ROUND: f64 = 0.62;
+const ROUND: f64 = 0.8;
 
 /// The picture of both surfaces.
 pub(crate) struct ProfileEntity {
@@ -39,6 +46,7 @@ pub(crate) struct ProfileEntity {
     plot: PlotBox,
     /// The lower end of the line under the point: of the trace.
     foot: f64,
+    room: TitleRoom,
     stress: Option<RasterEntity>,
     /// Speeds that the arrows tell, m/s.
     shown_m_s: Option<[f64; 2]>,
@@ -53,6 +61,7 @@ impl ProfileEntity {
         first: &Frame,
         scope: &Scope,
         trace: Option<&PlotBox>,
+        room: TitleRoom,
     ) -> Self {
         let x = [geometry.x_min, geometry.x_max()];
         let w = x[1] - x[0];
@@ -84,6 +93,7 @@ impl ProfileEntity {
             scale: ProfileScale::of(scene, 0.0, 0.0),
             ranges: scope.ranges,
             foot: trace.map_or(plot.y[1], |trace| trace.y[1]),
+            room,
             plot,
             stress,
             shown_m_s: None,
@@ -108,7 +118,7 @@ impl ProfileEntity {
     pub(crate) fn bounds(&self) -> [[f64; 2]; 2] {
         let [x, [top, _]] = self.plot.bounds(Margin::Legend);
         let width = self.plot.x[1] - self.plot.x[0];
-        [x, [top, self.foot + 0.13 * width]]
+        [x, [top, self.foot + 0.16 * width]]
     }
 
     /// How many times larger heights are drawn than lengths.
@@ -122,7 +132,7 @@ impl ProfileEntity {
         let left_ticks: Vec<AxisTick> = [-half_um, 0.0, half_um].map(place).into();
         let heights = format!("heights × {}", sig(self.exaggeration(), 3));
         let gap = if self.scale.is_dry {
-            "dry: nothing between the bodies"
+            "dry"
         } else {
             "oil by its pressure"
         };
@@ -135,11 +145,14 @@ impl ProfileEntity {
             } else {
                 Vec::new()
             },
-            titles: vec![
-                (-0.05, "z, µm".into(), WHITE),
-                (0.13, heights, WHITE),
-                (0.6, below, GREY),
-            ],
+            titles: match self.room {
+                TitleRoom::All => vec![
+                    (-0.05, "z, µm".into(), WHITE),
+                    (0.13, heights, WHITE),
+                    (0.6, below, GREY),
+                ],
+                TitleRoom::Some => vec![(-0.05, "z, µm".into(), WHITE), (0.4, heights, WHITE)],
+            },
             ..self.plot.clone()
         }
     }

@@ -9,7 +9,7 @@ use super::kymograph::{ExpectedRun, KymographEntity};
 use super::layout;
 use super::maps::{self, Maps};
 use super::picture::top;
-use super::profile::ProfileEntity;
+use super::profile::{ProfileEntity, TitleRoom};
 use super::raster::RasterEntity;
 use super::research::{self, ResearchEntity};
 use super::scalars;
@@ -97,8 +97,13 @@ impl RunViews {
         shown.camera = parts.map(crate::space::fixed::Parts::camera);
         shown.lecture = parts.map(crate::space::fixed::Parts::lecture_camera);
         all.extend(space.map(boxed));
+        let room = if is_common {
+            TitleRoom::Some
+        } else {
+            TitleRoom::All
+        };
         all.extend(curve_views(
-            stream, geometry, scene, first, &scope, &mut shown,
+            stream, geometry, scene, first, &scope, room, &mut shown,
         ));
         let kymographs = kymographs(stream, geometry, record, scene, first, &scope);
         shown.kymograph = kymographs[0].plot().clone();
@@ -264,6 +269,7 @@ fn curve_views(
     scene: Option<&Scene>,
     first: &Frame,
     scope: &Scope,
+    room: TitleRoom,
     shown: &mut ShownViews,
 ) -> Vec<Box<dyn View>> {
     let centre_line = CentreLine::new(stream, geometry, &scope.ranges);
@@ -272,7 +278,8 @@ fn curve_views(
     let trace = has_point.then(|| TraceEntity::new(stream, geometry, scope.ranges.pressure_pa));
     shown.trace = trace.as_ref().map(|trace| trace.plot().clone());
     let profile = scene.map(|scene| {
-        ProfileEntity::new(stream, geometry, scene, first, scope, shown.trace.as_ref())
+        let trace = shown.trace.as_ref();
+        ProfileEntity::new(stream, geometry, scene, first, scope, trace, room)
     });
     shown.profile = profile.as_ref().map(ProfileEntity::bounds);
     let tooth = ToothEntity::new(stream, scene);

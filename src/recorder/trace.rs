@@ -6,7 +6,7 @@ use rerun::{Points2D, Radius};
 use super::colour::{GREEN, GREY, ORANGE, PURPLE, WHITE, YELLOW, faded};
 use super::entities::trace::{BEFORE, EFFECTIVE, NOW, PEAKS, PRESSURE, TRACE};
 use super::geometry::Geometry;
-use super::plot::{PlotBox, Strips, line, ticks_at};
+use super::plot::{Labels, PlotBox, Strips, line, ticks_at};
 use super::stream::{Holds, Stream};
 use super::view::View;
 use asperity_engine::math::number::{GPA, MM, counted, divisions, plain, sig, ticks};
@@ -57,7 +57,6 @@ impl TraceEntity {
         let style = Points2D::update_fields()
             .with_radii([Radius::new_ui_points(3.0)])
             .with_colors([faded(YELLOW, 255)])
-            .with_show_labels(true)
             .with_draw_order(20.0);
         stream.log_static(PEAKS, &style);
         let mut this = Self {
@@ -92,10 +91,15 @@ impl TraceEntity {
 
     fn log_peaks(&self, stream: &Stream) {
         let peaks = self.trace.peaks.iter();
-        let points = Points2D::update_fields()
-            .with_positions(peaks.clone().map(|(_, at)| self.place(*at)))
-            .with_labels(peaks.map(|(number, _)| number.to_string()));
+        let places = peaks.clone().map(|(_, at)| self.place(*at));
+        let points = Points2D::update_fields().with_positions(places);
         stream.log(PEAKS, &points);
+        let mut numbers = Labels::default();
+        for (number, at) in peaks {
+            let [x, y] = self.place(*at).map(f64::from);
+            numbers.add([x, y], &number.to_string(), WHITE);
+        }
+        numbers.log(stream, &format!("{PEAKS}/numbers"), Holds::FromNow);
     }
 
     /// Whether the picture reaches so far.
