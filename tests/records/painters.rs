@@ -165,7 +165,7 @@ fn recorded(contents: &Contents, shown: &Shown, step: i64, columns: usize) -> Ve
 /// The pixels of an exported map: red, green, blue of the axes' inside, and its size.
 fn exported(file: &Path) -> (Vec<Rgb>, [usize; 2]) {
     /// Room around the axes.
-    const LEFT: usize = 69;
+    const LEFT: usize = 75;
     const ABOVE_THEM: usize = 87;
     const RIGHT: usize = 103;
     const BELOW_THEM: usize = 63;

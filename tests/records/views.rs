@@ -40,7 +40,7 @@ fn the_profile_has_the_gap_to_scale_in_every_picture() {
         let row = frame.ny / 2 * frame.nx;
         assert_eq!(columns.len(), 192);
         // Columns end round: by so much they are shorter at both ends.
-        let round = f64::from(columns[1][0][0] - columns[0][0][0]) * 0.62;
+        let round = f64::from(columns[1][0][0] - columns[0][0][0]) * 0.8;
         for column in columns {
             let [[x, lower], [_, upper]] = [column[0], column[1]].map(|at| at.map(f64::from));
             let place = (x * 1e-3 - frame.x_min_m) / frame.dx_m;

@@ -484,21 +484,23 @@ impl Drawing {
         for (value, label) in &axis.labels {
             let share = axis.share(*value);
             let [x, y] = plot.at(share, share).map(|at| self.crisp(at));
+            // They begin in the frame: a line's end reaches half its width farther.
+            let out = 0.5 * width;
             let (edge, tick, number, anchor) = match side {
                 Side::Below => {
                     let y = plot.bottom();
                     let number = [x, y + 1.5 * em];
-                    ([x, y], [x, y + 0.4 * em], number, TextAnchor::Middle)
+                    ([x, y + out], [x, y + 0.4 * em], number, TextAnchor::Middle)
                 }
                 Side::Left => {
                     let x = plot.left;
                     let number = [x - 0.7 * em, y + 0.35 * em];
-                    ([x, y], [x - 0.4 * em, y], number, TextAnchor::End)
+                    ([x - out, y], [x - 0.4 * em, y], number, TextAnchor::End)
                 }
                 Side::Right => {
                     let x = plot.right();
                     let number = [x + 0.7 * em, y + 0.35 * em];
-                    ([x, y], [x + 0.4 * em, y], number, TextAnchor::Start)
+                    ([x + out, y], [x + 0.4 * em, y], number, TextAnchor::Start)
                 }
             };
             self.line(vec![edge, tick], INK, width);

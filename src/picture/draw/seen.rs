@@ -110,6 +110,22 @@ pub(crate) fn contrast(one: Rgb, two: Rgb) -> f64 {
 }
 
 impl Drawing {
+    /// Pairs of texts that lie upon each other by more than a tenth of the size of type.
+    pub(crate) fn upon_each_other(&self) -> Vec<[&str; 2]> {
+        let room = 0.1 * self.font;
+        let meet = |one: &Text, two: &Text| {
+            let (one, two) = (self.extent(one), self.extent(two));
+            let mut sides = one.iter().zip(two);
+            sides.all(|(one, two)| one[0].max(two[0]) + room < one[1].min(two[1]))
+        };
+        let mut pairs = Vec::new();
+        for (k, one) in self.texts.iter().enumerate() {
+            let later = self.texts[k + 1..].iter().filter(|two| meet(one, two));
+            pairs.extend(later.map(|two| [one.words.as_str(), two.words.as_str()]));
+        }
+        pairs
+    }
+
     /// Texts with less than that contrast to more than a twentieth of what is behind them, each with the contrast that
     /// nineteen of twenty pixels have.
     pub(crate) fn faint(&self, least: f64) -> Vec<(&str, f64)> {

@@ -468,7 +468,7 @@ mod tests {
     }
 
     #[test]
-    fn no_word_is_cut_off_or_faint() {
+    fn no_word_is_cut_off_or_faint_or_upon_another() {
         let print = |width_mm| {
             let size = PrintSize {
                 width_mm,
@@ -492,6 +492,8 @@ mod tests {
                     let drawing = pictures.draw(&shown, page, kind).unwrap();
                     let cut = drawing.cut_off();
                     assert!(cut.is_empty(), "{preset}, {name}, {kind:?}: {cut:?}");
+                    let upon = drawing.upon_each_other();
+                    assert!(upon.is_empty(), "{preset}, {name}, {kind:?}: {upon:?}");
                     let faint = drawing.faint(4.5);
                     assert!(faint.is_empty(), "{preset}, {name}, {kind:?}: {faint:?}");
                     drawn += 1;

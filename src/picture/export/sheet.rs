@@ -88,7 +88,7 @@ impl Sheet {
     pub(super) fn begin(&self, right: f64, height: f64) -> (Drawing, Rect) {
         let em = self.font;
         let above = if self.heading.is_some() { 5.8 } else { 1.8 };
-        let left = (4.6 * em).round();
+        let left = (5.0 * em).round();
         let wide = (self.wide - left - right * em).round();
         let plot = Rect {
             left,

@@ -14,7 +14,7 @@ use asperity_engine::scene::{Scene, Tooth};
 use asperity_engine::sim::Frame;
 
 /// Heights over the width: of the gears, of the room below them, of a curve and the room below it.
-const PARTS: [f64; 4] = [0.5, 0.1, 0.2, 0.05];
+const PARTS: [f64; 4] = [0.5, 0.1, 0.2, 0.08];
 /// What stands over the path.
 const TITLES: [&str; 3] = ["p_h, GPa", "S", "R, mm"];
 const COLOURS: [Rgb; 3] = [PRESSURE, SECOND, FILM];
@@ -128,7 +128,12 @@ impl Path<'_> {
         let x = Axis::linear([0.0, (e - a) * MM], x_title);
         let mut y = Axis::linear([low, top], self.title);
         // There is little room.
-        y.labels = [low, 0.0, top].map(|value| (value, plain(value))).into();
+        let mut values = vec![low, 0.0, top];
+        values.dedup();
+        y.labels = values
+            .into_iter()
+            .map(|value| (value, plain(value)))
+            .collect();
         let place = |[at, value]: [f64; 2]| area.at(x.share(at), y.share(value));
         let (em, width) = (drawing.font(), drawing.unit().curve());
         for (at, name) in [(b, "B"), (c, "C"), (d, "D")] {
