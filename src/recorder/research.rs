@@ -15,6 +15,8 @@ use asperity_picture::{PointTrace, Ranges, ResearchData, ResearchPlot, Scope, Sp
 
 /// Means change slowly: they are drawn so many times less often, and once more at the end.
 const SELDOM: u64 = 6;
+/// Bytes that one takes at the end: three chunks of 2.4 kB and what is in them.
+pub(crate) const LAST_BYTES: f64 = 9e3;
 /// Height of a picture over its width.
 const HEIGHT: f64 = 0.55;
 

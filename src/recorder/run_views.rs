@@ -116,7 +116,8 @@ impl RunViews {
             let plots = ResearchEntity::new(scene, &shown.research, scope.ranges);
             all.push(boxed(plots));
         }
-        let spent = [stream.expected_bytes(), TEXT * last as f64];
+        let analysis = research::LAST_BYTES * shown.research.len() as f64;
+        let spent = [stream.expected_bytes(), TEXT * last as f64 + analysis];
         let steps = expected_steps(scene, first);
         let cadence = Cadence::new(record, steps, frame_bytes(geometry), spent);
         let run_s = steps * step_s(scene, first);
