@@ -102,9 +102,10 @@ fn pictures(
     }
     let (whole, shown) = (frames.whole(), frames.shown());
     // A still has all that the run's own export has; the shear and the roughness are in every second picture.
-    let one = match args.step {
-        Some(step) => whole.iter().min_by_key(|own| own.abs_diff(step)),
-        None => whole.last(),
+    let one = match (args.step, args.at_s) {
+        (Some(step), _) => whole.iter().min_by_key(|own| own.abs_diff(step)).copied(),
+        (None, Some(at_s)) => nearest(&frames.shown_at(), &whole, at_s),
+        (None, None) => whole.last().copied(),
     };
     let mut next = 0;
     for between in frames.steps() {
@@ -115,8 +116,8 @@ fn pictures(
         }
         let is_whole = whole.binary_search(&step).is_ok();
         let taken = match args.every {
-            None if Some(&step) == one => TakenAs::Still,
-            None if args.step.is_none() && is_whole => TakenAs::InSeries,
+            None if Some(step) == one => TakenAs::Still,
+            None if args.step.is_none() && args.at_s.is_none() && is_whole => TakenAs::InSeries,
             Some(_) if is_whole && step >= next => TakenAs::Still,
             _ => TakenAs::Moving,
         };
@@ -138,7 +139,19 @@ fn pictures(
         let all: Vec<&Frame> = std::iter::once(&frame).chain(&others).collect();
         export.take_all(&all, taken)?;
     }
-    Ok(export.finish()?.bytes)
+    let report = export.finish()?;
+    if !report.note.is_empty() {
+        super::failure::tell(&report.note);
+    }
+    Ok(report.bytes)
+}
+
+/// Of these steps, of which the times (s) are known, the one nearest to a time.
+fn nearest(times_s: &[(u64, f64)], steps: &[u64], at_s: f64) -> Option<u64> {
+    let known = times_s.iter().filter(|(step, _)| steps.contains(step));
+    let off = |(_, own): &&(u64, f64)| (own - at_s).abs();
+    let nearest = known.min_by(|one, two| off(one).total_cmp(&off(two)));
+    nearest.map(|(step, _)| *step)
 }
 
 /// A recording that is drawn beside another.

@@ -255,12 +255,13 @@ fn moes(scene: &Scene) -> Option<[f64; 2]> {
     (groups.m.is_finite() && groups.l > 0.0).then_some([groups.m, groups.l])
 }
 
-/// Exponent s of N ∝ σ^−s.
-fn stress_exponent(life: &Life) -> f64 {
+/// Exponent s of N ∝ σ^−s; `None`: a fatigue limit leaves no such law.
+fn stress_exponent(life: &Life) -> Option<f64> {
     match life.model {
-        LifeModel::Zaretsky | LifeModel::DangVan | LifeModel::Findley => life.stress_exponent,
+        LifeModel::Zaretsky | LifeModel::DangVan | LifeModel::Findley => Some(life.stress_exponent),
+        LifeModel::IoannidesHarris if life.limit_pa > 0.0 => None,
         LifeModel::LundbergPalmgren | LifeModel::IoannidesHarris => {
-            life.stress_exponent / life.weibull_slope
+            Some(life.stress_exponent / life.weibull_slope)
         }
     }
 }
@@ -271,7 +272,7 @@ fn sn_point(scene: &Scene, frame: &Frame, is_shared: bool) -> Option<Plot> {
     const SHARED: f64 = 1e-4;
     let life = frame.metrics.life.as_ref()?;
     let usual = Life::default();
-    let exponent = stress_exponent(scene.life.as_ref().unwrap_or(&usual));
+    let exponent = stress_exponent(scene.life.as_ref().unwrap_or(&usual))?;
     let stress_of = |life: f64| life.powf(-1.0 / exponent);
     let stress = stress_of(life.stress_factor);
     let [low, high] = [life.life_relative_low, life.life_relative_high];
@@ -288,6 +289,9 @@ fn sn_point(scene: &Scene, frame: &Frame, is_shared: bool) -> Option<Plot> {
     let least = if is_shared { least.min(SHARED) } else { least };
     let x = [decade(0.5 * least, false), decade(2.0 * most, true)];
     let shown = [x[1], x[0]].map(stress_of);
+    // Words of marks that lie upon each other cannot be read.
+    let is_near = (life.stress_factor.ln() / (x[1] / x[0]).ln()).abs() < 0.12;
+    let smooth = if is_near { "" } else { "smooth" };
     let mark = |at, tone, label: String| PlotMark {
         at,
         tone,
@@ -318,7 +322,7 @@ fn sn_point(scene: &Scene, frame: &Frame, is_shared: bool) -> Option<Plot> {
             ),
         ],
         marks: vec![
-            mark([1.0, 1.0], Tone::Film, "smooth".to_owned()),
+            mark([1.0, 1.0], Tone::Film, smooth.to_owned()),
             mark(
                 [life.stress_factor, stress],
                 Tone::Second,
@@ -367,8 +371,16 @@ mod tests {
             weibull_slope: 2.0,
             ..Life::default()
         };
-        assert_eq!(stress_exponent(&life(LifeModel::Zaretsky)), 10.0);
-        assert_eq!(stress_exponent(&life(LifeModel::LundbergPalmgren)), 5.0);
+        assert_eq!(stress_exponent(&life(LifeModel::Zaretsky)), Some(10.0));
+        assert_eq!(
+            stress_exponent(&life(LifeModel::LundbergPalmgren)),
+            Some(5.0)
+        );
+        let limited = Life {
+            limit_pa: 4e8,
+            ..life(LifeModel::IoannidesHarris)
+        };
+        assert_eq!(stress_exponent(&limited), None);
     }
 
     #[test]
@@ -384,7 +396,7 @@ mod tests {
             ..Default::default()
         });
         let plot = sn_point(&scene, &frame, false).unwrap();
-        let exponent = stress_exponent(&Life::default());
+        let exponent = stress_exponent(&Life::default()).unwrap();
         let [smooth, stressed, counted] = [0, 1, 2].map(|k| plot.marks[k].at);
         assert_eq!(smooth, [1.0, 1.0]);
         assert!((stressed[1].powf(-exponent) - 0.1).abs() < 1e-12);

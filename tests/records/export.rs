@@ -3,7 +3,7 @@
 
 use crate::common::synthetic;
 use asperity_engine::observe::{Observer, Overwrite};
-use asperity_picture::export::{Export, Format};
+use asperity_picture::export::{Export, Format, PrintSize};
 
 const NODES: usize = 17;
 
@@ -56,6 +56,21 @@ fn a_folder_with_somebodys_files_is_refused() {
     assert!(Export::create(folder.path(), Overwrite::Replace, &[Format::Npz]).is_ok());
     let file = folder.path().join("notes.txt");
     assert!(Export::create(&file.join("below"), Overwrite::Refuse, &[Format::Npz]).is_err());
+}
+
+/// What was asked for and is not there is told.
+#[test]
+fn a_picture_that_no_step_has_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let export = Export::create(folder.path(), Overwrite::Refuse, &[Format::Png]).unwrap();
+    let asked = ["pressure", "tooth"].map(str::to_owned);
+    let mut export = export.of(&asked, PrintSize::default());
+    export
+        .begin(&synthetic::context(synthetic::scene(NODES, 1.0)))
+        .unwrap();
+    export.frame(&synthetic::frame(NODES, 16)).unwrap();
+    let note = export.finish().unwrap().note;
+    assert_eq!(note, "nothing to draw of tooth: the run has none of it");
 }
 
 /// Of a run pictures show what was between the steps that are drawn; arrays are of those steps alone.

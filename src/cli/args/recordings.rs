@@ -58,6 +58,9 @@ pub(crate) struct ExportArgs {
     /// Still of the step nearest to this one [default: the last]
     #[arg(long, value_name = "N", conflicts_with = "every")]
     pub(crate) step: Option<u64>,
+    /// Still of the step nearest to this simulated time, s
+    #[arg(long, value_name = "S", conflicts_with_all = ["every", "step"], value_parser = finite)]
+    pub(crate) at_s: Option<f64>,
     /// Stills of every N-th step at most
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) every: Option<u64>,
@@ -81,6 +84,12 @@ fn within<const LEAST: u32, const MOST: u32>(text: &str) -> Result<f64, String> 
     let fits = (f64::from(LEAST)..=f64::from(MOST)).contains(&value);
     fits.then_some(value)
         .ok_or_else(|| format!("allowed: {LEAST} to {MOST}"))
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|error| format!("{error}"))?;
+    let is_finite = value.is_finite().then_some(value);
+    is_finite.ok_or_else(|| "a number of seconds is asked for".to_owned())
 }
 
 /// The values of a key that `--beside` names.

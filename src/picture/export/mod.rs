@@ -22,7 +22,7 @@ mod tooth_page;
 mod vtk;
 mod white;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, TryLockError};
 use std::io::{BufWriter, Error};
 use std::path::{Path, PathBuf};
@@ -145,6 +145,8 @@ pub struct Export {
     every: u64,
     moving: BTreeMap<&'static str, Animation>,
     series: Series,
+    /// Names of the pictures that were drawn.
+    drawn: BTreeSet<&'static str>,
     /// Time, s, and file of each step for ParaView: of the surface and of the plane below.
     lists: [Vec<(f64, String)>; 2],
     frames: u64,
@@ -197,6 +199,7 @@ impl Export {
             every: 1,
             moving: BTreeMap::new(),
             series: Series::default(),
+            drawn: BTreeSet::new(),
             lists: Default::default(),
             frames: 0,
             bytes: 0,
@@ -350,6 +353,7 @@ impl Export {
     ) -> Result<u64, ObserveError> {
         let mut bytes = 0;
         for (name, page) in Pictures::pages(&self.pictures, shown, &self.chosen) {
+            self.drawn.insert(name);
             let drawn = file(&self.page(shown, page, sheet)?);
             let drawn = drawn.map_err(|reason| self.failed(&Error::other(reason)))?;
             let step = shown.first().map_or(0, |frame| frame.step);
@@ -371,6 +375,7 @@ impl Export {
         let shared = shown.len() > 1;
         let kind = SheetKind::Moving { shared };
         for (name, page) in Pictures::pages(&self.pictures, shown, chosen) {
+            self.drawn.insert(name);
             if self.moving.entry(name).or_default().wants() {
                 let pixels = self.page(shown, page, kind)?.pixels();
                 let pixels = pixels.map_err(|reason| self.failed(&Error::other(reason)))?;
@@ -378,6 +383,20 @@ impl Export {
             }
         }
         Ok(())
+    }
+
+    /// What was asked for and is in no step, in words.
+    fn missing(&self) -> String {
+        let asked = self.chosen.iter().filter(|_| self.draws());
+        let missing = asked.filter(|name| !self.drawn.contains(name.as_str()));
+        let missing: Vec<&str> = missing.map(String::as_str).collect();
+        if missing.is_empty() {
+            return String::new();
+        }
+        format!(
+            "nothing to draw of {}: the run has none of it",
+            missing.join(", ")
+        )
     }
 
     /// Writes the pictures that move.
@@ -544,7 +563,11 @@ impl Observer for Export {
             frames: self.frames,
             skipped: 0,
             bytes: self.bytes,
-            note: if is_empty { NOTHING_CAME } else { "" }.to_owned(),
+            note: if is_empty {
+                NOTHING_CAME.to_owned()
+            } else {
+                self.missing()
+            },
             queue: None,
         })
     }
