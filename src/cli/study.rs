@@ -24,6 +24,11 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
             "--threads: this study compares one thread with two; to have cases of one only: --only \"1 threads\""
         )));
     }
+    if args.kind != StudyKind::Stability && !args.set.is_empty() {
+        return Err(Failure::input(miette::miette!(
+            "--set: goes with `asperity study stability`; the scenes of the other studies are what they are compared for"
+        )));
+    }
     let bar = ProgressBar::new(0);
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}") {
         bar.set_style(style);
@@ -62,7 +67,7 @@ fn measured(args: &StudyArgs, progress: &mut StudyProgress) -> Result<Report, St
     match args.kind {
         StudyKind::Accuracy => accuracy(extent, only, threads, progress)?.report(),
         StudyKind::Stability => Ok(stability_report(&stability(
-            extent, only, threads, progress,
+            extent, only, &args.set, threads, progress,
         )?)),
         StudyKind::Scaling => Ok(scaling_report(&scaling(extent, only, progress)?)),
         StudyKind::Story => Ok(story_report(&story(extent, only, threads, progress)?)),

@@ -67,7 +67,17 @@ fn accuracy_shows_the_orders_of_the_schemes() {
 
 #[test]
 fn extreme_cases_converge_or_are_named() {
-    let result = stability(Extent::Quick, None, 2, &mut |_, _, _| {}).expect("a study");
+    check_extremes(&[]);
+}
+
+/// The same with warm oil, which thins by Roelands' law.
+#[test]
+fn extreme_cases_with_warm_oil_converge_or_are_named() {
+    check_extremes(&["heat.viscosity_temperature_exponent=1.1".to_owned()]);
+}
+
+fn check_extremes(keys: &[String]) {
+    let result = stability(Extent::Quick, None, keys, 2, &mut |_, _, _| {}).expect("a study");
     println!("{}", stability_report(&result).text);
     assert!(result.rows.len() >= 20);
     assert_eq!(result.quiet(), 0);
@@ -84,7 +94,7 @@ fn extreme_cases_converge_or_are_named() {
 #[test]
 fn a_case_that_cannot_work_ends_by_name() {
     let only = Some("load x 20 in the usual domain");
-    let result = stability(Extent::Quick, only, 1, &mut |_, _, _| {}).expect("a study");
+    let result = stability(Extent::Quick, only, &[], 1, &mut |_, _, _| {}).expect("a study");
     let [row] = &result.rows[..] else {
         panic!("{} rows", result.rows.len());
     };

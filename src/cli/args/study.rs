@@ -22,6 +22,9 @@ pub(crate) struct StudyArgs {
     /// Only cases whose name or group contains this text
     #[arg(long, value_name = "TEXT")]
     pub(crate) only: Option<String>,
+    /// A key set in every case of the stability study, such as heat.viscosity_temperature_exponent=1.1; repeatable
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<String>,
     /// Cores to use [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
@@ -41,15 +44,22 @@ impl StudyArgs {
             (_, true) => Some("--full".to_owned()),
             _ => None,
         };
-        let quoted = |only: &String| format!("--only '{}'", only.replace('\'', r"'\''"));
+        let quoted =
+            |word: &str, text: &String| format!("--{word} '{}'", text.replace('\'', r"'\''"));
+        let sets = self.set.iter().map(|set| Some(quoted("set", set)));
         let words = [
             Some("asperity study".to_owned()),
             kind.map(|kind| kind.get_name().to_owned()),
             form,
-            self.only.as_ref().map(quoted),
+            self.only.as_ref().map(|only| quoted("only", only)),
             self.threads.map(|threads| format!("--threads {threads}")),
         ];
-        words.into_iter().flatten().collect::<Vec<_>>().join(" ")
+        words
+            .into_iter()
+            .chain(sets)
+            .flatten()
+            .collect::<Vec<_>>()
+            .join(" ")
     }
 }
 
@@ -104,7 +114,12 @@ mod tests {
         for kind in StudyKind::value_variants() {
             let name = kind.to_possible_value().unwrap();
             for form in [None, Some("--quick"), Some("--full")] {
-                for more in [&[][..], &["--only", "1 thread's"], &["--threads", "2"]] {
+                for more in [
+                    &[][..],
+                    &["--only", "1 thread's"],
+                    &["--threads", "2"],
+                    &["--set", "a=1", "--set", "title='x'"],
+                ] {
                     let mut words = vec!["asperity", "study", name.get_name()];
                     words.extend(form);
                     words.extend(more);

@@ -77,11 +77,12 @@ impl Drift {
 pub(super) fn long_run(
     nodes: usize,
     steps: u64,
+    keys: &[String],
     heard: &mut dyn FnMut(u64),
 ) -> Result<Drift, String> {
     // 8 nodes a wave whatever the grid.
     let wavelength_m = 8.0 * SPAN_M / (nodes - 1) as f64;
-    let sets = [
+    let mut sets = vec![
         format!("grid.nodes={nodes}"),
         "stress=none".to_owned(),
         "life=none".to_owned(),
@@ -90,6 +91,7 @@ pub(super) fn long_run(
         format!("body_2.surface.wavelength_x_m={wavelength_m:e}"),
         format!("body_2.surface.wavelength_y_m={wavelength_m:e}"),
     ];
+    sets.extend_from_slice(keys);
     let (scene, plan) = planned(scene_with(presets::QUICK, &sets)?)?;
     let window = plan.steps_per_passage;
     let mut sim = Simulation::new(&scene, plan, 1).map_err(|error| error.to_string())?;

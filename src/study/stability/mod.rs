@@ -69,17 +69,20 @@ impl Stability {
 }
 
 /// Runs the set, `workers` cases at a time. Quick: a part of it on 33²; usual: all on 65²; full: all on 129², and
-/// 10 000 steps on 65² in place of 2 000 on 33². `only`: the cases that it is part of; "long run" that alone.
+/// 10 000 steps on 65² in place of 2 000 on 33². `only`: the cases that it is part of; "long run" that alone. `keys`: set in all of them and in
+/// the long run, before a case's own.
 ///
 /// # Errors
 /// [`StudyError`] when the data of the study are wrong.
 pub fn stability(
     extent: Extent,
     only: Option<&str>,
+    keys: &[String],
     workers: usize,
     progress: &mut StudyProgress,
 ) -> Result<Stability, StudyError> {
-    let set = CaseSet::shipped().map_err(StudyError::Scene)?;
+    let mut set = CaseSet::shipped().map_err(StudyError::Scene)?;
+    set.set.extend_from_slice(keys);
     let (nodes, drift_nodes, drift_steps) = match extent {
         Extent::Quick => (33, 33, 600),
         Extent::Usual => (65, 33, 2_000),
@@ -102,7 +105,7 @@ pub fn stability(
         Some(part) if part != LONG_RUN => 0,
         _ => drift_steps,
     };
-    let drift = drift::long_run(drift_nodes, steps, &mut |done| {
+    let drift = drift::long_run(drift_nodes, steps, keys, &mut |done| {
         progress(&format!("long run, step {done} of {steps}"), all - 1, all);
     })
     .map_err(StudyError::Scene)?;
