@@ -12,12 +12,15 @@ use rustfft::{Fft, FftPlanner};
 
 use crate::math::grid::{Grid, Symmetry};
 
-/// Points of the padded domain over intervals of the domain: along x of a line, along both of a point.
-const LINE: usize = 8;
-const POINT: usize = 2;
-/// Part of the padding along x over which a wake falls to nothing, and over which what diffuses upstream does.
-const BEHIND: f64 = 0.75;
-const BEFORE: f64 = 0.15;
+/// Points of the padded domain over intervals of the domain, along x of a line and along both of a point: where heat is carried
+/// away, and where it spreads as fast as it is carried.
+const LINE: [usize; 2] = [8, 32];
+const POINT: [usize; 2] = [2, 4];
+/// Over how many of the ways that heat spreads and is carried between two clearings it falls to nothing, and lengths κ/V
+/// upstream that are left alone.
+const SPREADS: f64 = 2.0;
+const CARRIED: f64 = 3.0;
+const UPSTREAM: f64 = 4.0;
 /// Rows and columns of one task.
 const ROWS: usize = 8;
 const COLUMNS: usize = 8;
@@ -49,8 +52,9 @@ pub(super) struct Plane {
     rows_back: Arc<dyn ComplexToReal<f64>>,
     columns: Arc<dyn Fft<f64>>,
     columns_back: Arc<dyn Fft<f64>>,
-    /// Windows along x of a wake that goes along −x and along +x.
+    /// Windows along x of a wake that goes along −x and along +x, and along y from the axis (mirrored) or the first row.
     along: [Vec<f64>; 2],
+    across: Vec<f64>,
     /// Of every row of the padded domain that is kept.
     spectrum: Vec<Complex<f64>>,
     /// Columns on their way back.
@@ -59,12 +63,24 @@ pub(super) struct Plane {
     column_work: Vec<ColumnWork>,
 }
 
+/// How heat goes between two clearings of the padding, in the grid's unit of length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Spread {
+    /// As far as it spreads, and as far as it is carried.
+    pub(super) spreads: f64,
+    pub(super) carried: f64,
+    /// κ/V: as far upstream as it gets.
+    pub(super) upstream: f64,
+}
+
 impl Plane {
-    pub(super) fn new(grid: &Grid) -> Self {
+    /// `spreads`: heat spreads as fast as it is carried away.
+    pub(super) fn new(grid: &Grid, spreads: bool) -> Self {
+        let [line, point] = [LINE, POINT].map(|times| times[usize::from(spreads)]);
         let (px, py) = match grid.symmetry {
-            Symmetry::Line => (LINE * (grid.nx - 1), 1),
-            Symmetry::MirrorY => (POINT * (grid.nx - 1), POINT * 2 * (grid.ny - 1)),
-            Symmetry::General => (POINT * (grid.nx - 1), POINT * (grid.ny - 1)),
+            Symmetry::Line => (line * (grid.nx - 1), 1),
+            Symmetry::MirrorY => (point * (grid.nx - 1), point * 2 * (grid.ny - 1)),
+            Symmetry::General => (point * (grid.nx - 1), point * (grid.ny - 1)),
         };
         let n_ky = match grid.symmetry {
             Symmetry::MirrorY => py / 2 + 1,
@@ -81,8 +97,8 @@ impl Plane {
             (columns.get_inplace_scratch_len()).max(columns_back.get_inplace_scratch_len());
         Self {
             grid: grid.clone(),
-            along: [[BEFORE, BEHIND], [BEHIND, BEFORE]]
-                .map(|shares| (0..px).map(|i| window(i, grid.nx, px, shares)).collect()),
+            along: [vec![1.0; px], vec![1.0; px]],
+            across: vec![1.0; n_ky],
             columns_out: vec![zero; n_kx * n_ky],
             spectrum: vec![zero; n_ky * (n_kx + GAP)],
             row_work: (0..n_ky.div_ceil(ROWS))
@@ -105,6 +121,31 @@ impl Plane {
             rows_back,
             columns,
             columns_back,
+        }
+    }
+
+    /// Clears the padding from now on so that nothing comes round of heat that goes so between two clearings.
+    pub(super) fn clear_for(&mut self, heat: Spread) {
+        let (grid, px, py) = (&self.grid, self.px, self.py);
+        let (dx, dy) = (grid.dx, grid.dy);
+        let padding = (px - grid.nx) as f64;
+        let spreads = SPREADS * heat.spreads / dx;
+        let before = (spreads + UPSTREAM * heat.upstream / dx).min(0.5 * padding);
+        let ends = [
+            [padding - before, spreads + CARRIED * heat.carried / dx],
+            [before, spreads],
+        ];
+        self.along = [[ends[1], ends[0]], ends]
+            .map(|ends| (0..px).map(|i| window(i, grid.nx, px, ends)).collect());
+        if py > 1 {
+            // Row j of a mirrored field is as far from the axis as row −j.
+            let (first, inside) = match grid.symmetry {
+                Symmetry::MirrorY => (grid.ny - 1, 2 * grid.ny - 1),
+                Symmetry::Line | Symmetry::General => (0, grid.ny),
+            };
+            let ends = [[0.5 * (py - inside) as f64, SPREADS * heat.spreads / dy]; 2];
+            let across = (0..self.n_ky).map(|j| window(j + first, inside, py, ends));
+            self.across = across.collect();
         }
     }
 
@@ -230,10 +271,8 @@ impl Plane {
     /// Takes away what lies in the padding, so that no wake comes round; `forward`: it goes along +x.
     pub(super) fn damp(&mut self, waves: &mut [Complex<f64>], forward: bool) {
         let (n_kx, n_ky) = (self.n_kx, self.n_ky);
-        let (ny, py) = (self.grid.ny, self.py);
-        let is_mirrored = self.grid.symmetry == Symmetry::MirrorY;
         self.columns_back(n_ky, waves);
-        let columns = &self.columns_out;
+        let (columns, across) = (&self.columns_out, &self.across);
         let (back, there) = (&self.rows_back, &self.rows);
         let along = &self.along[usize::from(forward)];
         (self.spectrum.par_chunks_mut(ROWS * (n_kx + GAP)))
@@ -245,12 +284,7 @@ impl Plane {
                 for (r, line) in spectrum.chunks_exact_mut(n_kx + GAP).enumerate() {
                     let j = block * ROWS + r;
                     row_back(back, work, &mut line[..n_kx]);
-                    let across = match (py, is_mirrored) {
-                        (1, _) => 1.0,
-                        // Row j is as far from the axis as row −j.
-                        (_, true) => window(j + ny - 1, 2 * ny - 1, py, [0.5, 0.5]),
-                        (_, false) => window(j, ny, py, [0.5, 0.5]),
-                    };
+                    let across = across[j];
                     for (value, along) in work.real.iter_mut().zip(along) {
                         *value *= across * along;
                     }
@@ -299,15 +333,16 @@ fn row_back(plan: &Arc<dyn ComplexToReal<f64>>, work: &mut RowWork, from: &mut [
         .expect("buffers were made for this plan");
 }
 
-/// 1 on the first `inside` of `all` points of a ring, in the others cos² down to 0 over these shares of them behind and before.
-fn window(i: usize, inside: usize, all: usize, shares: [f64; 2]) -> f64 {
+/// 1 on the first `inside` of `all` points of a ring and as far beyond, behind and before, as it need not fall; then cos² down to
+/// 0: `ends` has of both how long they are and over how much of that it falls, in points.
+fn window(i: usize, inside: usize, all: usize, ends: [[f64; 2]; 2]) -> f64 {
     let i = i % all;
     if i < inside {
         return 1.0;
     }
-    let padding = (all - inside + 1) as f64;
-    let fall = |away: f64, share: f64| {
-        let part = away / (share * padding);
+    let fall = |away: f64, [length, falls]: [f64; 2]| {
+        let falls = falls.clamp(1.0, length.max(1.0));
+        let part = ((away - length) / falls + 1.0).max(0.0);
         if part < 1.0 {
             (std::f64::consts::FRAC_PI_2 * part).cos().powi(2)
         } else {
@@ -315,5 +350,5 @@ fn window(i: usize, inside: usize, all: usize, shares: [f64; 2]) -> f64 {
         }
     };
     let (behind, before) = ((i + 1 - inside) as f64, (all - i) as f64);
-    fall(behind, shares[0]).max(fall(before, shares[1]))
+    fall(behind, ends[0]).max(fall(before, ends[1]))
 }
