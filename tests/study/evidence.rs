@@ -233,7 +233,11 @@ fn made_surfaces_fit_every_point() {
     let set = set();
     let ways = set.made.ways();
     assert!(set.made.pairs >= 5 && ways.len() >= 3);
-    for point in set.experiments.iter().flat_map(|e| &e.point) {
+    let points = || set.experiments.iter().flat_map(|e| &e.point);
+    for label in set.made.variant.iter().flat_map(|variant| &variant.points) {
+        assert!(points().any(|point| point.label == *label), "{label}");
+    }
+    for point in points() {
         let (waves, _) = planned(&point.scene, &point.set).unwrap();
         for way in &ways {
             let keys = set.made.keys(point, *way, 2).unwrap();

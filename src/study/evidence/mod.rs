@@ -16,7 +16,7 @@ mod tried;
 
 use measure::SHRINKING;
 pub use plot::{agreement_plot, experiments_plot};
-pub use random::{AssumedRoughness, MadeRatio, MadeWay, TriedPairs, Verdict};
+pub use random::{AssumedRoughness, MadeRatio, MadeVariant, MadeWay, TriedPairs, Verdict};
 pub use report::{evidence_table, evidence_text};
 use set::Values;
 pub use set::{
@@ -131,9 +131,10 @@ impl EvidenceJob<'_> {
             Self::Point(experiment, point, basis, _) => {
                 format!("{}, {}, {}", experiment.name, point.label, basis.key())
             }
-            Self::Pair(experiment, point, _, way, pair) => {
+            Self::Pair(experiment, point, made, way, pair) => {
                 let [name, label] = [&experiment.name, &point.label];
-                format!("{name}, {label}, {}, pair {pair}", way.basis.key())
+                let more = way.variant.map_or("", |at| &made.variant[at].name[..]);
+                format!("{name}, {label}, {} {more}, pair {pair}", way.basis.key())
             }
         }
     }
@@ -202,7 +203,7 @@ pub fn evidence(
         for point in &experiment.point {
             let all = CycleBasis::ALL.into_iter();
             jobs.extend(all.map(|basis| EvidenceJob::Point(experiment, point, basis, nodes)));
-            for way in &ways {
+            for way in ways.iter().filter(|way| made.tries(point, **way)) {
                 let pairs = 1..=n_pairs;
                 let job = |pair| EvidenceJob::Pair(experiment, point, made, *way, pair);
                 jobs.extend(pairs.map(job));
@@ -224,10 +225,11 @@ pub fn evidence(
     let mut damages = damages.into_iter();
     let tried = experiments.iter().map(|&experiment| {
         let (mut by_waves, mut by_pairs) = (Vec::new(), Vec::new());
-        for _ in &experiment.point {
+        for point in &experiment.point {
             let mut next = |n: usize| damages.by_ref().take(n).collect::<Vec<_>>();
             by_waves.push(next(CycleBasis::ALL.len()));
-            let pairs = ways.iter().map(|_| next(n_pairs as usize));
+            let pairs = |way: &MadeWay| usize::from(made.tries(point, *way)) * n_pairs as usize;
+            let pairs = ways.iter().map(|way| next(pairs(way)));
             by_pairs.push(pairs.collect());
         }
         let pairs = TriedPairs::new(experiment, ways.len(), by_pairs);

@@ -42,6 +42,24 @@ pub struct AssumedRoughness {
     pub pairs: u64,
     /// Nodes of the grid.
     pub nodes: usize,
+    /// What the study leaves out, tried by damage with the first cut-off.
+    #[serde(default)]
+    pub variant: Vec<MadeVariant>,
+}
+
+/// Physics that the other ways leave out.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MadeVariant {
+    /// Name of its column.
+    pub name: String,
+    /// Where its numbers come from.
+    pub about: String,
+    /// Keys set in every scene that has oil.
+    pub set: Vec<String>,
+    /// Points that it is tried at, by label; none named: all.
+    #[serde(default)]
+    pub points: Vec<String>,
 }
 
 /// One way of trying: a cut-off and a counting.
@@ -51,15 +69,18 @@ pub struct MadeWay {
     pub cutoff_short_m: f64,
     /// How cycles are counted.
     pub basis: CycleBasis,
+    /// Which of [`AssumedRoughness::variant`]; `None`: with nothing that the study leaves out.
+    pub variant: Option<usize>,
 }
 
 impl AssumedRoughness {
-    /// The first cut-off by damage and by the paper's count, the others by damage.
+    /// The first cut-off by damage and by the paper's count, the others by damage; then the variants.
     pub fn ways(&self) -> Vec<MadeWay> {
         let way = |basis| {
             move |&cutoff_short_m: &f64| MadeWay {
                 cutoff_short_m,
                 basis,
+                variant: None,
             }
         };
         let by_paper = self
@@ -70,7 +91,20 @@ impl AssumedRoughness {
         let mut ways: Vec<MadeWay> = by_paper.collect();
         ways.extend(self.cutoffs_short_m.iter().map(way(CycleBasis::Damage)));
         ways.rotate_left(1);
+        let first = ways[0];
+        ways.extend((0..self.variant.len()).map(|variant| MadeWay {
+            variant: Some(variant),
+            ..first
+        }));
         ways
+    }
+
+    /// Whether a point is tried that way.
+    pub fn tries(&self, point: &EvidencePoint, way: MadeWay) -> bool {
+        let Some(variant) = way.variant.map(|at| &self.variant[at]) else {
+            return true;
+        };
+        variant.points.is_empty() || variant.points.contains(&point.label)
     }
 
     /// Keys that put made surfaces in the place of a point's waves.
@@ -109,6 +143,9 @@ impl AssumedRoughness {
             format!("life.cycles={}", way.basis.key()),
             "numerics.error_estimate=none".to_owned(),
         ]);
+        if let Some(variant) = way.variant.filter(|_| scene.lubricant.is_some()) {
+            keys.extend_from_slice(&self.variant[variant].set);
+        }
         Ok(keys)
     }
 }
@@ -177,7 +214,7 @@ impl MadeRatio {
 /// An experiment's points with every pair, and what its claims come to: `damages[point][way][pair]`, `judged[claim][way]`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TriedPairs {
-    /// Damages; why there is none.
+    /// Damages; why there is none. Ways that a point is not tried have no pair.
     pub damages: Vec<Vec<Vec<Result<TriedDamage, String>>>>,
     /// The claims.
     pub judged: Vec<Vec<Option<MadeRatio>>>,
@@ -191,11 +228,12 @@ impl TriedPairs {
     ) -> Self {
         let of_claim = |claim: &EvidenceClaim| -> Vec<Option<MadeRatio>> {
             let judge = |way: usize| {
-                let pairs = damages.first().map_or(0, |ways| ways[way].len());
+                let pairs = damages.iter().map(|ways| ways[way].len()).max();
+                let pairs = pairs.unwrap_or(0);
                 let ratio = |pair: usize| {
                     let of = |label: &str| {
                         let at = experiment.point.iter().position(|p| p.label == label)?;
-                        damages[at][way][pair].as_ref().ok().copied()
+                        damages[at][way].get(pair)?.as_ref().ok().copied()
                     };
                     claim.ratio_of(of).unwrap_or(f64::NAN)
                 };

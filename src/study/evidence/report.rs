@@ -143,7 +143,7 @@ fn push_experiments(text: &mut String, result: &Evidence) {
     }
     push_countings(text, &result.experiments);
     if is_made {
-        made::push_verdicts(text, &result.experiments, &ways);
+        made::push_verdicts(text, &result.experiments, &result.made);
     }
 }
 

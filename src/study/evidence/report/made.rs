@@ -24,6 +24,14 @@ pub(super) fn push_assumed(text: &mut String, made: &AssumedRoughness) {
         made.about,
         cutoffs.join(" and "),
     );
+    for variant in &made.variant {
+        let words = variant.set.join(" --set ");
+        let _ = writeln!(
+            text,
+            "*{}*: `--set {words}`. {}",
+            variant.name, variant.about
+        );
+    }
 }
 
 /// The points with all pairs, and the claims.
@@ -35,8 +43,12 @@ pub(super) fn push_experiment(
 ) {
     let mut points = MarkdownTable::new(&["made surfaces, point"]);
     let mut claims = MarkdownTable::new(&["made surfaces, what it says", "measured"]);
-    points.columns.extend(ways.iter().map(name));
-    claims.columns.extend(ways.iter().map(name));
+    points
+        .columns
+        .extend(ways.iter().map(|way| name(way, made)));
+    claims
+        .columns
+        .extend(ways.iter().map(|way| name(way, made)));
     let mut failures = Vec::new();
     for (at, point) in tried.experiment.point.iter().enumerate() {
         let is_stress = point.depth_m.is_some();
@@ -46,6 +58,7 @@ pub(super) fn push_experiment(
                 let [mean, scatter] = [found.mean, found.scatter].map(|v| figure(Some(v)));
                 format!("{what} {mean}, one pair x {scatter}")
             }
+            None if tried.pairs.damages[at][way].is_empty() => "-".to_owned(),
             None => "failed".to_owned(),
         };
         let body = if point.body == 1 { "" } else { " (body 2)" };
@@ -61,7 +74,8 @@ pub(super) fn push_experiment(
     }
     for (judged, by_way) in tried.judged.iter().zip(&tried.pairs.judged) {
         let mut row = vec![judged.claim.says.clone(), figure(judged.claim.ratio)];
-        row.extend(by_way.iter().map(|found| match found {
+        let is_tried = |way: usize| tried.pairs.damages.iter().any(|ways| !ways[way].is_empty());
+        row.extend(by_way.iter().enumerate().map(|(way, found)| match found {
             Some(found) => {
                 let verdict = match judged.claim.not_compared {
                     Some(_) => "not compared",
@@ -73,7 +87,8 @@ pub(super) fn push_experiment(
                     figure(Some(found.ratio))
                 )
             }
-            None => "failed".to_owned(),
+            None if is_tried(way) && !made_of_part(made, ways[way]) => "failed".to_owned(),
+            None => "-".to_owned(),
         }));
         claims.rows.push(row);
     }
@@ -90,7 +105,7 @@ pub(super) fn push_experiment(
         );
     }
     if let Some(forecast) = &tried.experiment.forecast {
-        push_forecast(text, tried, forecast, ways);
+        push_forecast(text, tried, forecast, (made, ways));
     }
 }
 
@@ -99,12 +114,24 @@ fn microns(length_m: f64) -> String {
 }
 
 /// A way in words.
-fn name(way: &MadeWay) -> String {
-    format!("{}, {}", way.basis.key(), microns(way.cutoff_short_m))
+fn name(way: &MadeWay, made: &AssumedRoughness) -> String {
+    let more = way.variant.map(|at| format!(", {}", made.variant[at].name));
+    let more = more.unwrap_or_default();
+    format!("{}, {}{more}", way.basis.key(), microns(way.cutoff_short_m))
+}
+
+/// Whether some points only are tried that way.
+fn made_of_part(made: &AssumedRoughness, way: MadeWay) -> bool {
+    (way.variant).is_some_and(|at| !made.variant[at].points.is_empty())
 }
 
 /// What the known life foretells: its own band times that of the ratio over the pairs.
-fn push_forecast(text: &mut String, tried: &Tried, forecast: &Forecast, ways: &[MadeWay]) {
+fn push_forecast(
+    text: &mut String,
+    tried: &Tried,
+    forecast: &Forecast,
+    (made, ways): (&AssumedRoughness, &[MadeWay]),
+) {
     let claim = tried.experiment.claim.iter().position(|claim| {
         claim.more == forecast.known && claim.less.as_ref() == Some(&forecast.wanted)
     });
@@ -126,12 +153,13 @@ fn push_forecast(text: &mut String, tried: &Tried, forecast: &Forecast, ways: &[
             forecast.high * found.range[1],
         ]
         .map(|life| figure(Some(life)));
-        let _ = writeln!(text, "- {}: {l10} ({low} to {high})", name(way));
+        let _ = writeln!(text, "- {}: {l10} ({low} to {high})", name(way, made));
     }
 }
 
 /// Claims met, not met and not decided, by way, beside the waves by the same counting.
-pub(super) fn push_verdicts(text: &mut String, experiments: &[Tried], ways: &[MadeWay]) {
+pub(super) fn push_verdicts(text: &mut String, experiments: &[Tried], made: &AssumedRoughness) {
+    let ways = &made.ways();
     text.push_str(
         "\n## Waves and made surfaces\n\nOf the claims that go by life and can be compared:\n\n",
     );
@@ -146,20 +174,23 @@ pub(super) fn push_verdicts(text: &mut String, experiments: &[Tried], ways: &[Ma
     ]);
     for (k, way) in ways.iter().enumerate() {
         let mut waves = [0; 2];
-        let mut made = [0; Verdict::ALL.len()];
+        let mut pairs = [0; Verdict::ALL.len()];
         for tried in experiments {
             for (judged, by_way) in tried.judged.iter().zip(&tried.pairs.judged) {
                 let Some(found) = by_way[k].filter(|_| judged.counts()) else {
                     continue;
                 };
                 waves[usize::from(!judged.holds[way.basis as usize])] += 1;
-                made[found.verdict as usize] += 1;
+                pairs[found.verdict as usize] += 1;
             }
         }
         let mut row = vec![way.basis.key().to_owned()];
         row.extend(waves.map(|n| n.to_string()));
-        row.push(microns(way.cutoff_short_m));
-        row.extend(made.map(|n| n.to_string()));
+        row.push(match way.variant {
+            None => microns(way.cutoff_short_m),
+            Some(at) => format!("{}, {}", microns(way.cutoff_short_m), made.variant[at].name),
+        });
+        row.extend(pairs.map(|n| n.to_string()));
         table.rows.push(row);
     }
     text.push_str(&table.markdown());
@@ -171,7 +202,7 @@ pub(super) fn push_verdicts(text: &mut String, experiments: &[Tried], ways: &[Ma
             }
         }
     }
-    let _ = writeln!(text, "\nBy {}:\n", name(&ways[0]));
+    let _ = writeln!(text, "\nBy {}:\n", name(&ways[0], made));
     for (verdict, claims) in Verdict::ALL.iter().zip(&of_verdict) {
         let claims = if claims.is_empty() {
             "none".to_owned()
@@ -179,5 +210,31 @@ pub(super) fn push_verdicts(text: &mut String, experiments: &[Tried], ways: &[Ma
             claims.join(", ")
         };
         let _ = writeln!(text, "- {}: {claims}", verdict.name());
+    }
+    for (k, way) in ways
+        .iter()
+        .enumerate()
+        .filter(|(_, way)| way.variant.is_some())
+    {
+        let mut turned = Vec::new();
+        for tried in experiments {
+            for (judged, by_way) in tried.judged.iter().zip(&tried.pairs.judged) {
+                let both = by_way[0].zip(by_way[k]).filter(|_| judged.counts());
+                if let Some((without, with)) = both.filter(|(a, b)| a.verdict != b.verdict) {
+                    turned.push(format!(
+                        "\"{}\" from {} to {}",
+                        judged.claim.says,
+                        without.verdict.name(),
+                        with.verdict.name()
+                    ));
+                }
+            }
+        }
+        let turned = if turned.is_empty() {
+            "nothing".to_owned()
+        } else {
+            turned.join(", ")
+        };
+        let _ = writeln!(text, "\n{} turns {turned}.", name(way, made));
     }
 }
