@@ -12,10 +12,6 @@ mod fields;
 mod frame;
 mod grounds;
 mod headline;
-#[cfg(not(target_arch = "wasm32"))]
-mod heat_stage;
-#[cfg(target_arch = "wasm32")]
-#[path = "no_heat.rs"]
 mod heat_stage;
 mod knob;
 mod last_period;

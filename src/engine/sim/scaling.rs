@@ -192,7 +192,6 @@ impl Scaling {
     }
 
     /// Heat of a pressure flow of power τ |∇P|² = 1 (`reynolds.rs`) at entrainment speed `u_m_s`, W/m².
-    #[cfg(not(target_arch = "wasm32"))]
     pub(super) fn flow_heat_w_m2(&self, u_m_s: f64) -> f64 {
         self.film_m * self.p_hertz_pa * u_m_s / self.a_m
     }

@@ -12,7 +12,6 @@ pub mod dry;
 mod faces;
 pub mod film;
 mod fluidity;
-#[cfg(not(target_arch = "wasm32"))]
 pub mod heat;
 pub mod history;
 pub mod jacobian;

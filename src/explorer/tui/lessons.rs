@@ -117,7 +117,7 @@ macro_rules! asset {
 }
 
 /// The files of the lessons that come with the program, in order.
-pub const FILES: [(&str, &str); 11] = [
+pub const FILES: [(&str, &str); 12] = [
     asset!("one_passage"),
     asset!("rolling_and_sliding"),
     asset!("thin_film"),
@@ -128,6 +128,7 @@ pub const FILES: [(&str, &str); 11] = [
     asset!("which_flank"),
     asset!("pit_start"),
     asset!("real_roughness"),
+    asset!("warm_oil"),
     asset!("doubt"),
 ];
 

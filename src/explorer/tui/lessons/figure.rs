@@ -31,7 +31,7 @@ const OWN: [LessonFigure; 3] = [
 ];
 
 /// Names on the screen, where that of the catalogue is long.
-const SHORT: [(&str, &str); 10] = [
+const SHORT: [(&str, &str); 12] = [
     ("n_body_1", "n₁"),
     ("n_body_2", "n₂"),
     ("n_counted_body_1", "counted₁"),
@@ -42,6 +42,8 @@ const SHORT: [(&str, &str); 10] = [
     ("sigma_eff_max_depth_m", "z"),
     ("a_m", "a"),
     ("p_hertz_pa", "p_h"),
+    ("friction_coefficient", "µ"),
+    ("flash_temperature_k", "ΔT"),
 ];
 
 impl PartialEq for LessonFigure {
