@@ -80,6 +80,7 @@ pub(super) fn unknown(full: &str) -> SceneError {
     }
     let paths: Vec<String> = keys::all_paths()
         .chain(SECTIONS.iter().map(|section| section.path.to_owned()))
+        .chain(super::drawing::drawn_keys().map(|(path, _)| path))
         .chain(["event".to_owned()])
         .collect();
     SceneError::UnknownKey {

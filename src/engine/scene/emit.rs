@@ -6,6 +6,7 @@ use toml::{Table, Value};
 
 use super::Knob;
 use super::check::lookup;
+use super::drawing::drawn_keys;
 use super::keys::{EVENT_KEYS, Key, Need, SECTIONS, Section};
 use super::model::Scene;
 
@@ -59,6 +60,22 @@ fn push_section(text: &mut String, section: &Section, table: Option<&Table>) {
             push_of_other_kind(text, key);
         }
     }
+    // Those of drawings, too, are told once.
+    let drawn = drawn_keys().filter(|(path, _)| {
+        section.path != "body_2.surface" && *path == section.path_of(own(path))
+    });
+    for (_, key) in drawn {
+        let setting = format!("# {} =", key.name);
+        push(
+            text,
+            format_args!("{setting:<COMMENT_COLUMN$}# {}\n", comment(key)),
+        );
+    }
+}
+
+/// The last name of a path.
+fn own(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or(path)
 }
 
 fn push_omitted_section(text: &mut String, section: &Section, meaning: &str) {

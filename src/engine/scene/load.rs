@@ -6,6 +6,7 @@ use std::sync::Arc;
 use toml::{Table, Value};
 
 use super::check;
+use super::drawing;
 use super::error::{SceneError, nearest};
 use super::height_map;
 use super::keys;
@@ -38,7 +39,9 @@ impl std::str::FromStr for Override {
         if key.is_empty() || value.is_empty() {
             return Err(malformed());
         }
-        if keys::find(key).is_none() && (keys::section(key).is_none() || value != "none") {
+        if keys::find(key).or_else(|| drawing::find(key)).is_none()
+            && (keys::section(key).is_none() || value != "none")
+        {
             return Err(match keys::section(key) {
                 Some(_) => {
                     SceneError::value(key, value, "none, or one of its keys, as TABLE.KEY=VALUE")
@@ -129,6 +132,7 @@ impl Override {
             }
         }
         if let Some(table) = descend(root, path) {
+            drawing::make_room(table, path, name);
             table.insert(name.to_owned(), self.value.clone());
         }
     }
@@ -211,6 +215,7 @@ impl Scene {
         for setting in overrides {
             setting.apply(&mut table);
         }
+        drawing::translate(&mut table)?;
         check::check_table(&mut table)?;
         // The check knows every key and kind, so this cannot fail unless the two disagree (a test
         // walks all presets and keys); an error is still better than a panic.

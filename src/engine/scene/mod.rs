@@ -6,6 +6,7 @@
 
 mod check;
 mod derived;
+mod drawing;
 mod emit;
 mod error;
 mod heat;
