@@ -111,7 +111,8 @@ pub(super) fn translate(scene: &mut Table) -> Result<(), SceneError> {
             }
         }
         if is_sinusoid(scene, drawn.table)
-            && let Some(value) = number(scene, drawn.table, "rq_m")
+            && let Some(value) =
+                number(scene, drawn.table, "rq_m").filter(|rq_m| ROUGH.takes(*rq_m))
         {
             at(scene, drawn.table).map(|table| table.remove("rq_m"));
             given.push(("rq_m", value));
