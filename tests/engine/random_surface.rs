@@ -261,8 +261,8 @@ fn what_does_not_fit_is_refused_by_name() {
             "\"sinusoid\" or \"height_map\"",
         ),
         (
-            &["body_2.surface.rq_m=2e-7"],
-            "only with body_2.surface.kind = \"random\"",
+            &["body_2.surface.kind=smooth", "body_2.surface.rq_m=2e-7"],
+            "body_2.surface.rq_m",
         ),
         (
             &["body_1.surface.correlation_x_m=inf"],
