@@ -59,10 +59,8 @@ const ROUGHNESS: &[Key] = &[
 
 /// The key with that full path.
 pub(super) fn find(path: &str) -> Option<&'static Key> {
-    let (table, name) = path.rsplit_once('.')?;
-    let own = DRAWN.iter().filter(|drawn| drawn.table == table);
-    own.flat_map(|drawn| drawn.keys)
-        .find(|key| key.name == name)
+    let mut all = drawn_keys();
+    all.find_map(|(own, key)| (own == path).then_some(key))
 }
 
 /// Every such key in full, with its own words.
@@ -73,7 +71,10 @@ pub(super) fn drawn_keys() -> impl Iterator<Item = (String, &'static Key)> {
             .iter()
             .map(|key| (joined(drawn.table, key.name), key))
     };
-    DRAWN.iter().flat_map(of)
+    DRAWN
+        .iter()
+        .flat_map(of)
+        .chain(super::finish::finish_keys())
 }
 
 /// Takes out of a table what the key that is set on top of it stands for, or is stood for by: the last word counts.
@@ -100,7 +101,9 @@ pub(super) fn make_room(table: &mut Table, path: &str, name: &str) {
 /// # Errors
 /// [`SceneError::Value`] of a value out of its range, beside one of the keys that it stands for, or without what it needs.
 pub(super) fn translate(scene: &mut Table) -> Result<(), SceneError> {
-    let mut said = String::new();
+    let mut notes = Vec::new();
+    super::finish::translate(scene, &mut notes)?;
+    let mut said: String = notes.iter().map(|note| format!("{note}\n")).collect();
     // Speeds in turns need the radii.
     let radii = [1, 2].map(|body| number(scene, "contact", &format!("radius_{body}_m")));
     for drawn in &DRAWN {
@@ -141,10 +144,11 @@ pub(super) fn translate(scene: &mut Table) -> Result<(), SceneError> {
             .map(|(name, value)| format!("{name} = {}", short(*value)))
             .collect();
         for (name, value) in found {
+            let full = joined(drawn.table, name);
+            unsay(scene, &full);
             let _ = writeln!(
                 said,
-                "{} = {} from {}.",
-                joined(drawn.table, name),
+                "{full} = {} from {}.",
                 rounded(value),
                 given.join(", ")
             );
@@ -166,8 +170,19 @@ pub(super) fn translate(scene: &mut Table) -> Result<(), SceneError> {
     Ok(())
 }
 
+/// Takes out of `about` what was converted into that key before: it is said anew, or no longer true.
+pub(super) fn unsay(scene: &mut Table, full: &str) {
+    if let Some(Value::String(about)) = scene.get_mut("about") {
+        let begins = format!("{full} = ");
+        let kept = |line: &&str| !(line.starts_with(&begins) && line.contains(" from "));
+        if !about.lines().all(|line| kept(&line)) {
+            *about = about.lines().filter(kept).collect::<Vec<_>>().join("\n");
+        }
+    }
+}
+
 /// The table at a path.
-fn at<'a>(scene: &'a mut Table, path: &str) -> Option<&'a mut Table> {
+pub(super) fn at<'a>(scene: &'a mut Table, path: &str) -> Option<&'a mut Table> {
     path.split('.')
         .try_fold(scene, |table, name| table.get_mut(name)?.as_table_mut())
 }

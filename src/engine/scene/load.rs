@@ -84,6 +84,7 @@ impl Override {
     }
 
     fn apply(&self, root: &mut Table) {
+        drawing::unsay(root, &self.key);
         let (path, name) = self.key.rsplit_once('.').unwrap_or(("", &self.key));
         if self.takes_out() {
             if let Some(table) = descend(root, path) {
@@ -96,6 +97,12 @@ impl Override {
         {
             // The digest is that of the former file.
             table.remove("digest");
+        }
+        if self.key.ends_with("surface.finish") {
+            // So does one that is finished in another way.
+            if let Some(table) = descend(root, path) {
+                table.clear();
+            }
         }
         if self.key.ends_with("surface.kind") {
             // A body of another kind keeps nothing of its former surface.

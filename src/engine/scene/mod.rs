@@ -9,6 +9,7 @@ mod derived;
 mod drawing;
 mod emit;
 mod error;
+mod finish;
 mod heat;
 mod height_map;
 mod key;
