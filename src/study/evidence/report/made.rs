@@ -74,7 +74,6 @@ pub(super) fn push_experiment(
     }
     for (judged, by_way) in tried.judged.iter().zip(&tried.pairs.judged) {
         let mut row = vec![judged.claim.says.clone(), figure(judged.claim.ratio)];
-        let is_tried = |way: usize| tried.pairs.damages.iter().any(|ways| !ways[way].is_empty());
         row.extend(by_way.iter().enumerate().map(|(way, found)| match found {
             Some(found) => {
                 let verdict = match judged.claim.not_compared {
@@ -87,8 +86,8 @@ pub(super) fn push_experiment(
                     figure(Some(found.ratio))
                 )
             }
-            None if is_tried(way) && !made_of_part(made, ways[way]) => "failed".to_owned(),
-            None => "-".to_owned(),
+            None if made_of_part(made, ways[way]) => "-".to_owned(),
+            None => "failed".to_owned(),
         }));
         claims.rows.push(row);
     }
