@@ -25,10 +25,12 @@ use crate::physics::fluid::ROELANDS_LN;
 
 /// Roelands' zero of temperature, K.
 const ROELANDS_ZERO_K: f64 = 138.0;
-/// Newton iterations for a stress, from the last one known: who asks looks whether it still changes.
+/// Most Newton iterations for a stress, from the last one known (who asks looks whether it still changes), and the part of ψ
+/// below which a change of all nodes of a block is the last: the next would be its square.
 const ITERATIONS: usize = 3;
+const SMALL: f64 = 1e-3;
 /// Nodes that are worked on together.
-const BLOCK: usize = 64;
+pub(crate) const BLOCK: usize = 16;
 /// ψ below which the first terms stand for the functions, to 1e-6 of them.
 const FAINT: f64 = 1e-3;
 /// In place of a stress and of a Y of nothing, and the least ψ.
@@ -146,52 +148,76 @@ dispatched! {
 ///
 /// The unknown is ψ: Y and with it the stress follow from it, and what is left is one equation whose residual rises.
 pub fn thinned_row(thinning: &Thinning, row: &Sheared, shift: &mut [f64], middle_k: &mut [f64]) {
-    let n = shift.len();
-    let middle_k = &mut middle_k[..n];
-    let (newtonian, ln_eta, limit) = (&row.newtonian[..n], &row.ln_eta[..n], &row.limit[..n]);
-    let (warms, walls, of) = (&row.warms_k[..n], &row.walls_k[..n], &row.of_stress[..n]);
     let zero = [0.0; BLOCK];
     let (mut at_walls, mut grow, mut per_y, mut high, mut psi) = (zero, zero, zero, zero, zero);
-    for start in (0..n).step_by(BLOCK) {
-        let width = BLOCK.min(n - start);
-        for k in 0..width {
-            let i = start + k;
-            let beta = thinning.per_k(walls[i], ln_eta[i]);
-            let c = thinning.at_rest(walls[i]);
-            at_walls[k] = ln_eta[i] * c * thinning.per_scale + c;
+    let (mut new_shift, mut new_middle) = (zero, zero);
+    for start in (0..shift.len()).step_by(BLOCK) {
+        let newtonian = block(row.newtonian, start);
+        if newtonian.iter().all(|stress| *stress <= 0.0) {
+            put(&zero, shift, start);
+            put(&zero, middle_k, start);
+            continue;
+        }
+        let [ln_eta, limit, warms, walls, of] =
+            [row.ln_eta, row.limit, row.warms_k, row.walls_k, row.of_stress].map(|field| block(field, start));
+        for k in 0..BLOCK {
+            let beta = thinning.per_k(walls[k], ln_eta[k]);
+            let c = thinning.at_rest(walls[k]);
+            at_walls[k] = ln_eta[k] * c * thinning.per_scale + c;
             grow[k] = beta * row.walls_grow_k;
-            per_y[k] = (beta * warms[i]).max(LEAST);
-            let coldest = newtonian[i].max(NOTHING) * exp(at_walls[k] + grow[k] * of[i]);
-            let most = law(coldest, row.eyring, limit[i].max(NOTHING)).0;
+            per_y[k] = (beta * warms[k]).max(LEAST);
+            let coldest = newtonian[k].max(NOTHING) * exp(at_walls[k] + grow[k] * of[k]);
+            let most = law(coldest, row.eyring, limit[k].max(NOTHING)).0;
             high[k] = psi_above(per_y[k] * most / 8.0).min(MOST);
-            let about = psi_about(per_y[k] * of[i] / 8.0);
-            psi[k] = if of[i] > 0.0 && about < high[k] { about } else { high[k] }.max(LEAST);
+            let about = psi_about(per_y[k] * of[k] / 8.0);
+            psi[k] = if of[k] > 0.0 && about < high[k] { about } else { high[k] }.max(LEAST);
         }
         for _ in 0..ITERATIONS {
-            for k in 0..width {
-                let i = start + k;
+            let mut moves = 0;
+            for k in 0..BLOCK {
                 let film = Film::at(psi[k]);
                 let stress = film.y / per_y[k];
-                let thinner = at_walls[k] - grow[k] * (stress - of[i]) - film.phi;
-                let newtonian = newtonian[i].max(NOTHING) * exp(thinner);
-                let (law, slope) = law(newtonian, row.eyring, limit[i].max(NOTHING));
+                let thinner = at_walls[k] - grow[k] * (stress - of[k]) - film.phi;
+                let newtonian = newtonian[k].max(NOTHING) * exp(thinner);
+                let (law, slope) = law(newtonian, row.eyring, limit[k].max(NOTHING));
                 // In logarithms the residual is all but straight where much thins.
                 let of_walls = film.y_psi / per_y[k] * grow[k];
                 let rises = film.y_psi / film.y + slope / law * (of_walls + film.phi_psi);
                 let next = psi[k] - ln(stress / law) / rises;
                 // Never beyond where the film were as cold as its walls, nor to nothing at once.
-                psi[k] = next.max(0.25 * psi[k]).min(high[k]).max(LEAST);
+                let next = next.max(0.25 * psi[k]).min(high[k]).max(LEAST);
+                moves |= u64::from((next - psi[k]).abs() > SMALL * psi[k]);
+                // What is a small step further on is what the slopes say.
+                let step = next - psi[k];
+                let stress = stress + film.y_psi / per_y[k] * step;
+                new_shift[k] = at_walls[k] - grow[k] * (stress - of[k]) - film.phi - film.phi_psi * step;
+                new_middle[k] = (film.warms + film.warms_psi * step) / per_y[k] * warms[k];
+                psi[k] = next;
+            }
+            if moves == 0 {
+                break;
             }
         }
-        for k in 0..width {
-            let i = start + k;
-            let film = Film::at(psi[k]);
-            let stress = film.y / per_y[k];
-            shift[i] = at_walls[k] - grow[k] * (stress - of[i]) - film.phi;
-            middle_k[i] = warms[i] * stress * film.middle;
-        }
+        put(&new_shift, shift, start);
+        put(&new_middle, middle_k, start);
     }
 }
+}
+
+/// A block of a row from `start` on; 0 beyond its end. Whole blocks are worked on: a rest would be worked on one by one.
+#[inline(always)]
+pub(crate) fn block(row: &[f64], start: usize) -> [f64; BLOCK] {
+    let mut block = [0.0; BLOCK];
+    let width = BLOCK.min(row.len() - start);
+    block[..width].copy_from_slice(&row[start..start + width]);
+    block
+}
+
+/// Back into the row.
+#[inline(always)]
+pub(crate) fn put(block: &[f64; BLOCK], row: &mut [f64], start: usize) {
+    let width = BLOCK.min(row.len() - start);
+    row[start..start + width].copy_from_slice(&block[..width]);
 }
 
 /// Stress where Newtonian oil would have `newtonian`, and its slope by ln η.
@@ -231,8 +257,9 @@ struct Film {
     y_psi: f64,
     phi: f64,
     phi_psi: f64,
-    /// Rise in the middle over Q h/k_f.
-    middle: f64,
+    /// β times the rise in the middle, ln cosh²ψ, and its slope.
+    warms: f64,
+    warms_psi: f64,
 }
 
 impl Film {
@@ -252,7 +279,8 @@ impl Film {
             y_psi: of(16.0 * psi, 8.0 * (t + full * (1.0 - t * t))),
             phi: of(2.0 / 3.0 * square, 2.0 * full + ln(two / (4.0 * full))),
             phi_psi: of(4.0 / 3.0 * psi, 2.0 * (1.0 + e * e) / two - 1.0 / full),
-            middle: of(0.125, 2.0 * ln_cosh / y),
+            warms: of(square, 2.0 * ln_cosh),
+            warms_psi: 2.0 * of(psi, t),
         }
     }
 }

@@ -198,6 +198,7 @@ impl HeatStage {
     pub(super) fn find(&mut self, step: &SolvedStep) {
         self.resist(step);
         self.flow(step);
+        let mut before = f64::INFINITY;
         for round in 0..MOST_ROUNDS {
             self.shear(step);
             let (change, all) = (self.changes.iter()).fold((0.0, 0.0), |(change, all), row| {
@@ -212,9 +213,12 @@ impl HeatStage {
             for ((walls, one), two) in walls.zip(&self.heat.rise[1]) {
                 *walls = 0.5 * (one + two);
             }
-            if self.thinning.is_none() {
+            // Nor need what would change as much less as it just did be looked for again.
+            let falls = (change / before).min(1.0);
+            if self.thinning.is_none() || round > 0 && falls * change <= SAME * all {
                 break;
             }
+            before = change;
         }
     }
 

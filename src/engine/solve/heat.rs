@@ -141,12 +141,15 @@ pub struct Heat {
     pub into_body_1: Vec<f64>,
     /// d, W/m².
     exchange: Vec<f64>,
-    /// Waves of H_1 and H_2, of q_1 and q_2, and of Q.
+    /// Waves of H_1 and H_2, of q_1 and q_2, of Q, of d (`crossing`; known once a step's heat has been shared) and of what is
+    /// added to it.
     past: [Vec<Complex<f64>>; 2],
     entering: [Vec<Complex<f64>>; 2],
     made: Vec<Complex<f64>>,
+    crossing: Vec<Complex<f64>>,
+    is_known: bool,
+    added: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
-    warm: Vec<Complex<f64>>,
     /// Modes at the end of the step.
     next: [Waves<f32>; 2],
     fields: [Vec<f64>; 8],
@@ -164,8 +167,10 @@ impl Heat {
             past: [waves(), waves()],
             entering: [waves(), waves()],
             made: waves(),
+            crossing: waves(),
+            is_known: false,
+            added: waves(),
             scratch: waves(),
-            warm: waves(),
             next: [modes(), modes()],
             plane,
             length_m,
@@ -249,6 +254,7 @@ impl Heat {
             );
         }
         self.exchange.clone_from(&state.exchange);
+        self.is_known = false;
     }
 
     /// How heat goes between two clearings.
@@ -303,24 +309,14 @@ impl Heat {
             return;
         };
         self.solve(made, resistance, &tables);
-        // T_i = H_i + A_i (Q/2 ± d), of which the waves of Q and d are known.
-        self.plane.forward(&self.exchange, &mut self.scratch);
-        for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
-            let entering = self
-                .made
-                .par_iter()
-                .zip(&self.scratch)
-                .zip(&tables[body].own);
-            (self.warm.par_iter_mut())
-                .zip(&mut self.entering[body])
-                .zip(&self.past[body])
-                .zip(entering)
-                .with_min_len(BLOCK)
-                .for_each(|(((wave, q), past), ((made, d), own))| {
-                    *q = made * 0.5 + d * sign;
-                    *wave = past + *q * own;
-                });
-            self.plane.back(&self.warm, &mut self.rise[body]);
+        // T_1 + T_2 from the waves, T_2 − T_1 from what d leaves of its equation.
+        self.enter(&tables);
+        let [one, two] = &mut self.rise;
+        self.plane.back(&self.scratch, one);
+        let across = resistance.iter().zip(&self.exchange).zip(&self.fields[2]);
+        for ((one, two), ((across, d), rest)) in one.iter_mut().zip(two).zip(across) {
+            let (sum, step) = (*one, across * d + rest);
+            (*one, *two) = (0.5 * (sum - step), 0.5 * (sum + step));
         }
         let heat = self.into_body_1.iter_mut().zip(made);
         for ((to, made), d) in heat.zip(&self.exchange) {
@@ -347,15 +343,20 @@ impl Heat {
             .map_or(0.0, |(tables, _)| tables[0].mean + tables[1].mean)
     }
 
-    /// (A_1 + A_2) x.
-    fn both(&mut self, tables: &[Symbols; 2], x: usize, to: usize) {
-        self.plane.forward(&self.fields[x], &mut self.scratch);
-        (self.scratch.par_iter_mut())
-            .zip(&tables[0].own)
-            .zip(&tables[1].own)
+    /// Waves of q_i = Q/2 ± d, and of T_1 + T_2 = Σ H_i + A_i q_i in `scratch`.
+    fn enter(&mut self, tables: &[Symbols; 2]) {
+        let [first, second] = &mut self.entering;
+        let symbols = tables[0].own.par_iter().zip(&tables[1].own);
+        let histories = self.past[0].par_iter().zip(&self.past[1]);
+        (self.scratch.par_iter_mut().zip(first).zip(second))
+            .zip(self.made.par_iter().zip(&self.crossing))
+            .zip(symbols.zip(histories))
             .with_min_len(BLOCK)
-            .for_each(|((wave, one), two)| *wave *= one + two);
-        self.plane.back(&self.scratch, &mut self.fields[to]);
+            .for_each(|((((both, q1), q2), (made, d)), ((a1, a2), (h1, h2)))| {
+                let half = made * 0.5;
+                (*q1, *q2) = (half + d, half - d);
+                *both = h1 + h2 + *q1 * a1 + *q2 * a2;
+            });
     }
 
     /// d of this step, by BiCGStab preconditioned by the diagonal, from the last guess on.
@@ -364,15 +365,18 @@ impl Heat {
         let diagonal = tables[0].mean + tables[1].mean;
         // Right-hand side less the operator on the first guess: H2 − H1 + (A2 − A1) Q/2 − (A1 + A2 + h/k) d.
         self.plane.forward(made, &mut self.made);
-        self.plane.forward(&self.exchange, &mut self.scratch);
+        if !self.is_known {
+            self.plane.forward(&self.exchange, &mut self.crossing);
+            self.is_known = true;
+        }
         let symbols = tables[0].own.par_iter().zip(&tables[1].own);
         let histories = self.past[0].par_iter().zip(&self.past[1]);
-        (self.scratch.par_iter_mut().zip(&self.made))
-            .zip(symbols)
-            .zip(histories)
+        (self.scratch.par_iter_mut())
+            .zip(self.made.par_iter().zip(&self.crossing))
+            .zip(symbols.zip(histories))
             .with_min_len(BLOCK)
-            .for_each(|(((d, made), (one, two)), (first, second))| {
-                *d = second - first + made * 0.5 * (two - one) - *d * (one + two);
+            .for_each(|((to, (made, d)), ((a1, a2), (h1, h2)))| {
+                *to = h2 - h1 + made * 0.5 * (a2 - a1) - *d * (a1 + a2);
             });
         self.plane.back(&self.scratch, &mut self.fields[2]);
         let goal = RESIDUAL * dot(made, made).sqrt() * diagonal;
@@ -402,6 +406,7 @@ impl Heat {
                 self.fields[0][n] += alpha * self.fields[4][n] / (across + diagonal);
                 self.fields[2][n] -= alpha * self.fields[5][n];
             }
+            self.add(alpha);
             if dot(&self.fields[2], &self.fields[2]).sqrt() <= goal {
                 break;
             }
@@ -412,11 +417,19 @@ impl Heat {
                 self.fields[0][n] += omega * self.fields[2][n] / (across + diagonal);
                 self.fields[2][n] -= omega * self.fields[7][n];
             }
+            self.add(omega);
         }
         self.exchange.clone_from(&self.fields[0]);
     }
 
-    /// The preconditioned operator on field `x`.
+    /// Adds to the waves of d what has been added to it: what the operator was last applied to, so many times.
+    fn add(&mut self, times: f64) {
+        (self.crossing.par_iter_mut().zip(&self.added))
+            .with_min_len(BLOCK)
+            .for_each(|(d, added)| *d += added * times);
+    }
+
+    /// The preconditioned operator on field `x`; the waves of the preconditioned one stay in `added`.
     fn apply(
         &mut self,
         tables: &[Symbols; 2],
@@ -428,7 +441,12 @@ impl Heat {
         for (n, across) in resistance.iter().enumerate() {
             self.fields[6][n] = self.fields[x][n] / (across + diagonal);
         }
-        self.both(tables, 6, to);
+        self.plane.forward(&self.fields[6], &mut self.added);
+        (self.scratch.par_iter_mut().zip(&self.added))
+            .zip(tables[0].own.par_iter().zip(&tables[1].own))
+            .with_min_len(BLOCK)
+            .for_each(|((wave, added), (one, two))| *wave = added * (one + two));
+        self.plane.back(&self.scratch, &mut self.fields[to]);
         for (n, across) in resistance.iter().enumerate() {
             self.fields[to][n] += across * self.fields[6][n];
         }

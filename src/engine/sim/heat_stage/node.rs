@@ -2,7 +2,7 @@
 
 use super::{HeatStage, SolvedStep};
 use crate::math::elementary::{exp, ln};
-use crate::physics::thinning::{Sheared, Thinning, thinned_row};
+use crate::physics::thinning::{BLOCK, Sheared, Thinning, block, put, thinned_row};
 use crate::solve::traction::{FilmShear, TractionLaw};
 
 /// Parts of Q h/k_f by which the flow sees the oil warmer than its walls: heat of the sliding, of the flow itself; and the
@@ -10,6 +10,9 @@ use crate::solve::traction::{FilmShear, TractionLaw};
 const FLOW_OF_SLIDING: f64 = 1.0 / 20.0;
 const FLOW_OF_FLOW: f64 = 3.0 / 84.0;
 const MIDDLE_OF_FLOW: f64 = 1.0 / 16.0;
+
+/// The K of all nodes of a block below which c = base − K, to its square.
+const FAINT: f64 = 1e-5;
 
 /// A row of nodes.
 pub(super) struct Row<'a> {
@@ -167,23 +170,40 @@ fn thinner_row(
     flowing: &mut [f64],
     thinner: &mut [f64],
 ) {
-    let n = thinner.len();
-    let (walls, sliding, resistance) = (&walls[..n], &sliding[..n], &resistance[..n]);
-    let (solved, flowed, flowing) = (&solved[..n], &flowed[..n], &mut flowing[..n]);
-    for i in 0..n {
-        let rest = walls[i] + FLOW_OF_SLIDING * sliding[i] * resistance[i];
-        let warms = FLOW_OF_FLOW * flowed[i] * resistance[i];
-        let base = thinning.at_rest(rest);
-        // Of exponential oil exactly base − W(K), Lambert's; the guess is good to a few per cent for any K.
-        let k = ln(1.0 + thinning.falls_at_rest(rest) * warms * exp(base - solved[i]));
-        let mut c = base - k * (1.0 - ln(1.0 + k) / (2.0 + k));
-        for _ in 0..2 {
-            let of_flow = warms * exp(c - solved[i]);
-            let residual = c - thinning.at_rest(rest + of_flow);
-            c -= residual / (1.0 + thinning.falls_at_rest(rest + of_flow) * of_flow);
+    let zero = [0.0; BLOCK];
+    let (mut rest, mut warms, mut base, mut k) = (zero, zero, zero, zero);
+    let (mut c, mut flows) = (zero, zero);
+    for start in (0..thinner.len()).step_by(BLOCK) {
+        let [walls, sliding, resistance, solved, flowed] =
+            [walls, sliding, resistance, solved, flowed].map(|field| block(field, start));
+        let mut warmed = 0;
+        for i in 0..BLOCK {
+            rest[i] = walls[i] + FLOW_OF_SLIDING * sliding[i] * resistance[i];
+            warms[i] = FLOW_OF_FLOW * flowed[i] * resistance[i];
+            base[i] = thinning.at_rest(rest[i]);
+            k[i] = thinning.falls_at_rest(rest[i]) * warms[i] * exp(base[i] - solved[i]);
+            warmed |= u64::from(k[i] > FAINT);
+            c[i] = base[i] - k[i];
         }
-        thinner[i] = c;
-        flowing[i] = flowed[i] * exp(c - solved[i]);
+        // Of exponential oil exactly base − W(K), Lambert's; the guess is good to a few per cent for any K.
+        if warmed != 0 {
+            for i in 0..BLOCK {
+                let k = ln(1.0 + k[i]);
+                c[i] = base[i] - k * (1.0 - ln(1.0 + k) / (2.0 + k));
+            }
+            for _ in 0..2 {
+                for i in 0..BLOCK {
+                    let of_flow = warms[i] * exp(c[i] - solved[i]);
+                    let residual = c[i] - thinning.at_rest(rest[i] + of_flow);
+                    c[i] -= residual / (1.0 + thinning.falls_at_rest(rest[i] + of_flow) * of_flow);
+                }
+            }
+        }
+        for i in 0..BLOCK {
+            flows[i] = flowed[i] * exp(c[i] - solved[i]);
+        }
+        put(&c, thinner, start);
+        put(&flows, flowing, start);
     }
 }
 }
