@@ -130,8 +130,7 @@ fn start(
 ) -> Result<Running, Failure> {
     let session = engine(Request {
         name: prepared.name.clone(),
-        // Knobs are turned on surfaces that stay as they are.
-        scene: Arc::new((*prepared.scene).clone().with_new_surfaces()),
+        scene: Arc::clone(&prepared.scene),
         plan: prepared.plan.clone(),
         threads,
         watchers: outputs.take_watchers(),

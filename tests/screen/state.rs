@@ -9,8 +9,9 @@ use std::time::Duration;
 use crate::common::tui_fixture::{
     self, State, buffer, found, mouse, plain, play, running, scene, sent, settled, setup_of, text,
 };
+use asperity_engine::math::number::sig;
 use asperity_engine::scene::{CycleBasis, Event, Scene, Surface};
-use asperity_engine::sim::Knob;
+use asperity_engine::sim::{AgePoint, Knob};
 use asperity_explorer::tui::action::Action;
 use asperity_explorer::tui::app::{App, Effect, ErrandKind, Leading};
 use asperity_explorer::tui::event::PointerAct;
@@ -318,6 +319,41 @@ fn one_key_counts_the_other_way_and_back() {
         [],
         "a lesson keeps its count"
     );
+}
+
+/// A jump is added to the curve, one that comes again replaces the last, another mesh begins anew.
+#[test]
+fn one_key_ages_the_surfaces_and_makes_them_new() {
+    let mut app = running(plain());
+    let shown = |app: &App, words: &str| text(app, 160, 48).contains(words);
+    assert!(!shown(&app, "over cycles"));
+    let scene = staged(&app.apply(Action::Age));
+    assert!(scene.wear.is_some() && scene.age.is_some());
+    app.rebuilt(setup_of(scene));
+    for (step, cycles, life) in [
+        (1, 0.0, "0.10"),
+        (2, 1e3, "0.20"),
+        (3, 1e3, "0.21"),
+        (4, 2e4, "0.40"),
+        (5, 0.0, "0.15"),
+    ] {
+        let mut frame = tui_fixture::frame(step, &State::default());
+        frame.age = Some(AgePoint {
+            cycles,
+            life_relative: Some(life.parse().unwrap()),
+            ..AgePoint::default()
+        });
+        app.take_frame(frame.into());
+        assert!(shown(&app, "life over cycles"));
+        let now = format!("{life} at {} cycles", sig(cycles, 2));
+        assert!(shown(&app, &now), "{now}\n{}", text(&app, 160, 48));
+    }
+    app.apply(Action::Curve);
+    assert!(shown(&app, "Rq over cycles"));
+    let scene = staged(&app.apply(Action::Age));
+    assert!(scene.wear.is_none() && scene.age.is_none());
+    app.rebuilt(setup_of(scene));
+    assert!(shown(&app, "life against S"));
 }
 
 /// The knobs of the first lesson's scene.

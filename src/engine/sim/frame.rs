@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 pub use self::quantity::{CATALOGUE, Dimension, Over, Quantity, Reading, named};
 pub(super) use self::quantity::{SUMMED, summed, total};
 use super::{
-    DamageBlock, Grounds, LifeEstimate, LubricationRegime, MaterialPoint, MeshErrors, Repeat,
-    StressPlane, StressSlice,
+    AgePoint, DamageBlock, Grounds, LifeEstimate, LubricationRegime, MaterialPoint, MeshErrors,
+    Repeat, StressPlane, StressSlice,
 };
 use crate::scene::ContactKind;
 
@@ -98,6 +98,8 @@ pub struct Frame {
     pub planes: Vec<StressPlane>,
     /// Damage collected by blocks of both surfaces; `None` where none is mapped or nothing has crossed.
     pub damage: [Option<DamageBlock>; 2],
+    /// The surfaces at the last loading cycles that a jump has come to; `None` where they stay new.
+    pub age: Option<AgePoint>,
     /// Scalars.
     pub metrics: Metrics,
     /// What [`Frame::cautions`] are drawn from beside them.

@@ -173,6 +173,11 @@ impl Simulation {
         self.state.step
     }
 
+    /// Whether surfaces age, and have cycles left to do so.
+    pub fn is_ageing(&self) -> bool {
+        self.state.worn.as_ref().is_some_and(|worn| !worn.is_done())
+    }
+
     /// Whether the passages that the scene asks for are done.
     pub fn is_done(&self) -> bool {
         let steady = matches!(

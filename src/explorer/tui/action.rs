@@ -58,6 +58,8 @@ pub enum Action {
     Probe(f64, f64),
     /// Count cycles the other way: by their damage, or every contact as one, as the paper does.
     OtherCount,
+    /// Let the surfaces age, or begin again with new ones.
+    Age,
     /// Freeze this state to compare with; let it go again.
     Pin,
     /// What the material point shows.
@@ -70,7 +72,7 @@ pub enum Action {
     MovePoint(i32),
     /// The point that is now at x/a.
     PutPoint(f64),
-    /// Life against S, friction against S, friction against speed.
+    /// Life against S, friction against S, friction against speed; of surfaces that age, what they do over the cycles.
     Curve,
     /// Replay the period of a passage that repeats, or go on with the run.
     Replay,

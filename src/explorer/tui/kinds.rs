@@ -181,7 +181,7 @@ impl PointQuantity {
     }
 }
 
-/// What is drawn against S, or against the speed.
+/// What is drawn against S, against the speed, or of surfaces that age against the loading cycles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CurveKind {
     /// Relative life, logarithmic.
@@ -191,11 +191,45 @@ pub enum CurveKind {
     Friction,
     /// Friction coefficient against the speed.
     Stribeck,
+    /// Of surfaces that age, against the loading cycles.
+    Aged(Aged),
+}
+
+/// What ageing surfaces are followed by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Aged {
+    /// Life of surfaces that would stay as they are.
+    Life,
+    /// Root-mean-square heights.
+    Rq,
+    /// Greatest depths worn.
+    Depth,
+    /// Greatest pressure.
+    Pressure,
+    /// Friction coefficient.
+    Friction,
+    /// Shares of the surfaces with pits.
+    Pits,
 }
 
 impl CurveKind {
-    pub(crate) fn next(self) -> Self {
-        shifted(&[Self::Life, Self::Friction, Self::Stribeck], self, 1)
+    const NEW: [Self; 3] = [Self::Life, Self::Friction, Self::Stribeck];
+    const AGED: [Self; 9] = [
+        Self::Aged(Aged::Life),
+        Self::Aged(Aged::Rq),
+        Self::Aged(Aged::Depth),
+        Self::Aged(Aged::Pressure),
+        Self::Aged(Aged::Friction),
+        Self::Aged(Aged::Pits),
+        Self::Life,
+        Self::Friction,
+        Self::Stribeck,
+    ];
+
+    /// The next one of a scene whose surfaces age, or stay new.
+    pub(crate) fn next(self, ages: bool) -> Self {
+        let all: &[Self] = if ages { &Self::AGED } else { &Self::NEW };
+        shifted(all, self, 1)
     }
 }
 

@@ -261,8 +261,7 @@ fn start(
     ending: Ending,
 ) -> Result<(PageRun, Setup), String> {
     let (scene, plan) = on_nodes(scene, nodes)?;
-    // Knobs are turned on surfaces that stay as they are.
-    let scene = Arc::new(scene.mechanical());
+    let scene = Arc::new(scene);
     let setup = Setup::of(Arc::clone(&scene), name, &plan);
     let rows = KeptRows::default();
     let request = Request {

@@ -33,6 +33,7 @@ pub(super) fn fill(sim: View, frame: &mut Frame) {
         }
         fill_damage(sim, body, &mut frame.damage[body.index()]);
     }
+    frame.age = sim.state.ages.last().copied();
     frame.metrics.clone_from(&sim.state.metrics);
     frame.grounds = grounds(sim.plan, sim.state);
 }

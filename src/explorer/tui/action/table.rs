@@ -67,6 +67,7 @@ pub const KEYS: &[Row] = rows! {
         "b", "freeze to compare; release": ch('b') => Pin;
         "y", "life, friction, Stribeck": ch('y') => Curve;
         "a", "count: by damage, Pu et al.": ch('a') => OtherCount;
+        "g", "age the surfaces; new ones": ch('g') => Age;
         "u", "other units": ch('u') => Units;
         "c", "contrast: high, light": ch('c') => Contrast;
         "i", "plan: what is computed, why": ch('i') => Plan;

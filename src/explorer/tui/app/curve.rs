@@ -110,7 +110,9 @@ impl App {
     /// Asks for what is missing on the curve that is shown.
     pub(super) fn begin_sweep(&mut self) -> Vec<Effect> {
         let settled = self.replay.settled.as_ref();
-        if settled.is_none_or(|settled| settled.state.is_none()) {
+        // Cases beside surfaces that age would have to age, too.
+        let ages = self.run.setup.scene.age.is_some();
+        if ages || settled.is_none_or(|settled| settled.state.is_none()) {
             return Vec::new();
         }
         let along = self.view.curve.along();
@@ -178,7 +180,7 @@ impl App {
     /// The next curve; what it lacks is computed.
     pub(super) fn next_curve(&mut self) -> Vec<Effect> {
         let before = self.view.curve.along();
-        self.view.curve = self.view.curve.next();
+        self.view.curve = self.view.curve.next(self.run.setup.scene.age.is_some());
         if self.view.curve.along() == before {
             return Vec::new();
         }
@@ -188,10 +190,10 @@ impl App {
 }
 
 impl CurveKind {
-    /// What it goes along.
+    /// What a sweep for it, or beside it, goes along.
     pub fn along(self) -> Along {
         match self {
-            Self::Life | Self::Friction => Along::SlideRoll,
+            Self::Life | Self::Friction | Self::Aged(_) => Along::SlideRoll,
             Self::Stribeck => Along::Entrainment,
         }
     }

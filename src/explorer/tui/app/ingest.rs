@@ -59,6 +59,7 @@ impl App {
             self.run.trouble = Some((trouble, self.now + TROUBLE_SHOWN));
         }
         self.take_life(&frame);
+        self.take_age(&frame);
         self.take_film(&frame);
         self.run.kymograph.push(&frame);
         self.keep(frame);
@@ -173,6 +174,14 @@ impl App {
             entrainment_m_s: metrics.entrainment_m_s,
         };
         self.drop_anchor(&at, &life);
+    }
+
+    /// A jump that is new, or the last one again with better heights; fewer cycles are those of another mesh, from the start.
+    fn take_age(&mut self, frame: &Frame) {
+        let Some(age) = frame.age else { return };
+        let ages = &mut self.lives.ages;
+        ages.retain(|known| known.cycles < age.cycles * (1.0 - 1e-9));
+        ages.push(age);
     }
 
     fn keep(&mut self, frame: Arc<Frame>) {

@@ -15,7 +15,7 @@ mod typed;
 mod why;
 
 pub use crate::tui::kinds::{
-    AutoReplay, CurveKind, Leading, MapKind, Overlay, PanelKind, PointQuantity, RunPace, Zoom,
+    Aged, AutoReplay, CurveKind, Leading, MapKind, Overlay, PanelKind, PointQuantity, RunPace, Zoom,
 };
 pub use data::{
     AxisEnds, Effect, ErrandKind, LifeAccount, LifeSample, Pinned, PointNow, StateBefore, Trouble,

@@ -56,6 +56,7 @@ impl App {
             Action::Write => self.errand(ErrandKind::Write),
             Action::Curve => self.next_curve(),
             Action::OtherCount => self.other_count(),
+            Action::Age => self.age(),
             Action::Replay => self.toggle_replay(),
             Action::PointBody => self.other_body(),
             Action::PointDepth(by) => self.point_depth(by),
@@ -121,6 +122,7 @@ impl App {
             | Action::PutPoint(_)
             | Action::Curve
             | Action::OtherCount
+            | Action::Age
             | Action::Replay
             | Action::Record
             | Action::View

@@ -7,11 +7,16 @@ use super::state::{App, ViewState};
 use super::typed::LONGEST;
 use crate::tui::action::Action;
 use crate::tui::choice::{Draft, Form};
-use crate::tui::kinds::Overlay;
+use crate::tui::kinds::{Aged, CurveKind, Overlay};
 use crate::tui::tables;
 use crate::tui::wiring::{Setup, Shown};
-use asperity_engine::scene::{CycleBasis, Scene};
+use asperity_engine::scene::{Age, CycleBasis, Scene, Wear};
 use asperity_engine::sim::Stage;
+
+/// Archard's coefficient where a scene has none, 1/Pa: mild wear in boundary contact, K = 1e-8 over a hardness of 7 to 10 GPa.
+const MILD_PER_PA: f64 = 1e-18;
+/// Loading cycles that surfaces age over.
+const CYCLES: f64 = 1e7;
 
 impl App {
     /// The screen of a new run, which keeps how things are shown, the tour and the pinned life where it can
@@ -115,18 +120,60 @@ impl App {
             self.say("no life in this scene, and so no count");
             return Vec::new();
         };
+        life.cycles = match life.cycles {
+            CycleBasis::Damage => CycleBasis::Global,
+            CycleBasis::Global | CycleBasis::Peaks => CycleBasis::Damage,
+        };
+        self.begin_again(scene)
+    }
+
+    /// The same scene with surfaces that age, by mild wear where it says nothing else; with new ones.
+    pub(super) fn age(&mut self) -> Vec<Effect> {
+        let mut scene = self.scene_now();
+        let (curve, words) = if scene.age.is_some() {
+            scene = scene.with_new_surfaces();
+            (CurveKind::Life, "new surfaces".to_owned())
+        } else {
+            let mild = Wear {
+                coefficient_1_per_pa: MILD_PER_PA,
+                coefficient_2_per_pa: MILD_PER_PA,
+            };
+            let [one, two] = scene.wear.get_or_insert(mild).coefficients_per_pa();
+            scene.age = Some(Age {
+                cycles: CYCLES,
+                ..Age::default()
+            });
+            if scene.motion.slide_roll == 0.0 {
+                self.say("at S = 0 nothing slides and nothing wears: turn S, then g");
+                return Vec::new();
+            }
+            let words = format!(
+                "the surfaces age over {CYCLES:.0e} cycles, by {one:e} and {two:e} 1/Pa where they touch; y: by what"
+            );
+            (CurveKind::Aged(Aged::Life), words)
+        };
+        if let Err(error) = scene.validate() {
+            self.say(error.to_string());
+            return Vec::new();
+        }
+        let begins = self.begin_again(scene);
+        if !begins.is_empty() {
+            self.view.curve = curve;
+            self.say(words);
+        }
+        begins
+    }
+
+    /// The run of a scene in place of the present one, if it may be.
+    fn begin_again(&mut self, scene: Scene) -> Vec<Effect> {
         if self.lesson.tour.is_some() {
-            self.say("a lesson keeps its count; T ends it");
+            self.say("a lesson keeps its scene; T ends it");
             return Vec::new();
         }
         if !self.offers(ErrandKind::Rebuild) {
             self.say("no other scene can be started from here");
             return Vec::new();
         }
-        life.cycles = match life.cycles {
-            CycleBasis::Damage => CycleBasis::Global,
-            CycleBasis::Global | CycleBasis::Peaks => CycleBasis::Damage,
-        };
         let name = self.lesson.own_scene.1.clone();
         self.lesson.own_scene = (scene.clone().into(), name.clone());
         vec![Effect::Rebuild(Box::new(scene), name)]

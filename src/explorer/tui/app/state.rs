@@ -21,7 +21,7 @@ use crate::tui::units::Units;
 use crate::tui::wiring::{Health, RunStatus, Setup};
 use asperity_engine::physics::estimate::{Anchor, Estimate, EstimateBasis, Loaded, OperatingPoint};
 use asperity_engine::scene::Scene;
-use asperity_engine::sim::{Frame, Knob, LifeEstimate};
+use asperity_engine::sim::{AgePoint, Frame, Knob, LifeEstimate};
 use asperity_picture::{Ranges, Scope};
 use asperity_session::run::Settled;
 use asperity_session::sweep::{Along, Found};
@@ -97,6 +97,8 @@ pub(crate) struct LivesState {
     /// The contact where the knobs are going, by formula.
     pub(super) loaded: Loaded,
     pub(crate) history: VecDeque<LifeSample>,
+    /// Surfaces that age, jump by jump.
+    pub(crate) ages: Vec<AgePoint>,
     /// What was simulated, by the run and beside it.
     pub(super) simulated: Vec<Found>,
     pub(super) friction: SettledMean,
@@ -374,6 +376,7 @@ impl LivesState {
             anchor: None,
             loaded,
             history: VecDeque::new(),
+            ages: Vec::new(),
             simulated: Vec::new(),
             friction: SettledMean::default(),
             film: SettledMean::default(),

@@ -1,5 +1,6 @@
 //! Right, below: a curve along S or the speed with the operating point on it, and the history of the estimate.
 
+mod aged;
 mod along;
 
 use ratatui::buffer::Buffer;
@@ -20,7 +21,7 @@ const CURVE_ROWS: u16 = 7;
 /// A press on a plot along S, or along the speed, puts that knob there.
 pub(super) fn pressed(app: &App, plot: Rect, at: Position) -> Option<Action> {
     let x = along::figure(app).plot(plot).x_at(at.x);
-    plot.contains(at).then(|| along::goes_to(app, x))
+    along::goes_to(app, x).filter(|_| plot.contains(at))
 }
 
 /// Draws what there is room for; says where the curve's plot is, and what it leaves to a page.
@@ -113,11 +114,12 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
         Line::from(spans)
     };
     let [other, short] = figure.other_name;
-    let full = legend(["formula ", "simulated "], other);
+    let [simulated, sim] = figure.points_name;
+    let full = legend(["formula ", simulated], other);
     let heading = if full.width() <= usize::from(area.width) {
         full
     } else {
-        legend(["form. ", "sim. "], short)
+        legend(["form. ", sim], short)
     };
     put(area, 0, &heading, buffer);
     let Some((done, all)) = app.lives.sweep else {

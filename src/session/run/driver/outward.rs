@@ -119,8 +119,9 @@ impl Driver {
     }
 
     /// Looks for a period of a live run; on a coarser mesh for one with a settled life, or the time that it has.
+    /// While surfaces age nothing repeats, and no finer mesh begins them anew.
     pub(super) fn gather_frame(&mut self, sim: &Simulation, frame: &Arc<Frame>, on_top: bool) {
-        let Some(gather) = &mut self.gather else {
+        let Some(gather) = self.gather.as_mut().filter(|_| !sim.is_ageing()) else {
             return;
         };
         let closing = if on_top {

@@ -19,13 +19,13 @@ pub(super) struct CurvePoint {
 }
 
 /// A curve with its axes; places in the units of the axes.
-#[derive(Default)]
 pub(super) struct CurveFigure {
     pub(super) name: &'static str,
     /// What a formula says; empty: there is none.
     pub(super) formula: Vec<(f64, f64)>,
-    /// What was simulated, with the ends of its band.
+    /// What was simulated, with the ends of its band, and its name, in full and short.
     pub(super) points: Vec<CurvePoint>,
+    pub(super) points_name: [&'static str; 2],
     /// The same by the other count, and whose that is, in full and short.
     pub(super) other: Vec<(f64, f64)>,
     pub(super) other_name: [&'static str; 2],
@@ -39,6 +39,25 @@ pub(super) struct CurveFigure {
     pub(super) y_ends: [String; 2],
     /// Words left, in the middle and right below the axis.
     pub(super) foot: [String; 3],
+}
+
+impl Default for CurveFigure {
+    fn default() -> Self {
+        Self {
+            name: "",
+            formula: Vec::new(),
+            points: Vec::new(),
+            points_name: ["simulated ", "sim. "],
+            other: Vec::new(),
+            other_name: [""; 2],
+            knob: 0.0,
+            now: None,
+            x: [0.0; 2],
+            y: [0.0; 2],
+            y_ends: Default::default(),
+            foot: Default::default(),
+        }
+    }
 }
 
 impl CurveFigure {
@@ -58,17 +77,20 @@ pub(super) fn figure(app: &App) -> CurveFigure {
         CurveKind::Life => life(app),
         CurveKind::Friction => friction(app),
         CurveKind::Stribeck => stribeck(app),
+        CurveKind::Aged(aged) => super::aged::figure(app, aged),
     }
 }
 
 /// What a press at a place of the present curve's axis asks for.
-pub(super) fn goes_to(app: &App, x: f64) -> Action {
+pub(super) fn goes_to(app: &App, x: f64) -> Option<Action> {
     match app.view.curve {
-        CurveKind::Life | CurveKind::Friction => Action::GoTo(Knob::SlideRoll, x),
+        CurveKind::Life | CurveKind::Friction => Some(Action::GoTo(Knob::SlideRoll, x)),
         CurveKind::Stribeck => {
             let [sign, _] = axis(app, Knob::EntrainmentMS).0;
-            Action::GoTo(Knob::EntrainmentMS, 10_f64.powf(x).copysign(sign))
+            let speed = 10_f64.powf(x).copysign(sign);
+            Some(Action::GoTo(Knob::EntrainmentMS, speed))
         }
+        CurveKind::Aged(_) => None,
     }
 }
 
@@ -123,6 +145,7 @@ fn life(app: &App) -> CurveFigure {
         y,
         y_ends: y.map(|decade| sig(10_f64.powf(decade), 1)),
         foot: slide_roll_foot(x),
+        ..CurveFigure::default()
     }
 }
 
@@ -201,7 +224,7 @@ fn stribeck(app: &App) -> CurveFigure {
 }
 
 /// Whole decades that hold all values, at least one.
-fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
+pub(super) fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let (mut low, mut high) = (0.0_f64, 0.0_f64);
     for value in values.filter(|value| value.is_finite()) {
         low = low.min(value);
