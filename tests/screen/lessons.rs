@@ -155,7 +155,7 @@ macro_rules! lessons {
 }
 
 lessons! {
-    one_passage rolling_and_sliding thin_film waves_flatten lay load gear_tooth which_flank pit_start real_roughness warm_oil doubt
+    one_passage rolling_and_sliding thin_film waves_flatten lay load gear_tooth which_flank pit_start real_roughness warm_oil a_little_wear doubt
 }
 
 #[test]

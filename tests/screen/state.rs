@@ -208,7 +208,7 @@ fn a_lesson_asks_shows_tells_moves_on_and_returns() {
     assert!(matches!(&asked[..], [Command::Say(words)] if words.contains("How often")));
     let first = text(&app, 160, 48);
     assert!(
-        first.contains("1/12 One asperity, one passage (1/2)") && first.contains("1 once"),
+        first.contains("1/13 One asperity, one passage (1/2)") && first.contains("1 once"),
         "{first}"
     );
     assert!(

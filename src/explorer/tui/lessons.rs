@@ -117,7 +117,7 @@ macro_rules! asset {
 }
 
 /// The files of the lessons that come with the program, in order.
-pub const FILES: [(&str, &str); 12] = [
+pub const FILES: [(&str, &str); 13] = [
     asset!("one_passage"),
     asset!("rolling_and_sliding"),
     asset!("thin_film"),
@@ -129,6 +129,7 @@ pub const FILES: [(&str, &str); 12] = [
     asset!("pit_start"),
     asset!("real_roughness"),
     asset!("warm_oil"),
+    asset!("a_little_wear"),
     asset!("doubt"),
 ];
 

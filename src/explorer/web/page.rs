@@ -382,7 +382,7 @@ mod tests {
         let asked = page.caption();
         let lines: Vec<&str> = asked.split('\n').collect();
         assert!(
-            lines[0] == "lesson" && lines[1].starts_with("1/12") && lines[2].contains("How often"),
+            lines[0] == "lesson" && lines[1].starts_with("1/13") && lines[2].contains("How often"),
             "{asked}"
         );
         // What gives the answer away is not told before.
