@@ -8,7 +8,7 @@ Not part of CI. Needs Python 3.11 or newer with venv, a package index, and Cargo
 The first run makes an environment beside the build (--venv, default target/peers-venv) from requirements.txt, and the
 script starts itself again in it. Everything runs on one thread. Times are CPU seconds of the working thread, of the
 solution alone and of making what it needs (kernels, plans, memory): the peers' best of three, asperity's mean of many
-(`tests/engine/peers.rs`; the counter that it reads is coarse).
+(`tests/study/peers.rs`; the counter that it reads is coarse).
 
 Cases (steel, E 210 GPa, nu 0.3, R 10 mm, p0 1 GPa; n intervals or pixels a side)
   hertz           non-periodic, domain 3 a, from a uniform pressure; error 1: greatest pressure, error 2: L2 of the field
@@ -227,7 +227,7 @@ def tamaas_subsurface(n, depths):
 
 
 def ours(quick):
-    command = "cargo test --locked --release --test engine -- --ignored --exact peers::table".split()
+    command = "cargo test --locked --release --package asperity-study --test study -- --ignored --exact peers::table".split()
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "peers.csv"
         variables = os.environ | {"ASPERITY_PEERS": str(path)} | ({"ASPERITY_PEERS_N": "128"} if quick else {})

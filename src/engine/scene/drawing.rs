@@ -101,9 +101,8 @@ pub(super) fn make_room(table: &mut Table, path: &str, name: &str) {
 /// # Errors
 /// [`SceneError::Value`] of a value out of its range, beside one of the keys that it stands for, or without what it needs.
 pub(super) fn translate(scene: &mut Table) -> Result<(), SceneError> {
-    let mut notes = Vec::new();
-    super::finish::translate(scene, &mut notes)?;
-    let mut said: String = notes.iter().map(|note| format!("{note}\n")).collect();
+    let mut said = String::new();
+    super::finish::translate(scene, &mut said)?;
     // Speeds in turns need the radii.
     let radii = [1, 2].map(|body| number(scene, "contact", &format!("radius_{body}_m")));
     for drawn in &DRAWN {

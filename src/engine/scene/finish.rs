@@ -3,6 +3,8 @@
 //! Heights are published, lengths along and across the lay are not: those are assumed, and lives hang on them.
 //! A shot-peened flank is not among them: no published height with its source was at hand.
 
+use std::fmt::Write as _;
+
 use toml::{Table, Value};
 
 use super::drawing::at;
@@ -62,7 +64,7 @@ pub(super) fn finish_keys() -> impl Iterator<Item = (String, &'static Key)> {
 ///
 /// # Errors
 /// [`SceneError::Value`] of a word that is none, or beside another kind of surface.
-pub(super) fn translate(scene: &mut Table, said: &mut Vec<String>) -> Result<(), SceneError> {
+pub(super) fn translate(scene: &mut Table, said: &mut String) -> Result<(), SceneError> {
     for body in BODIES {
         let Some(surface) = at(scene, body) else {
             continue;
@@ -95,9 +97,10 @@ pub(super) fn translate(scene: &mut Table, said: &mut Vec<String>) -> Result<(),
             if !is_given {
                 surface.insert(name.to_owned(), Value::Float(value));
                 let key = finish.key();
-                said.push(format!(
+                let _ = writeln!(
+                    said,
                     "{body}.{name} = {value:e} from finish = {key}: {why}."
-                ));
+                );
             }
         }
     }
