@@ -432,7 +432,7 @@ await test("memory stays where it is", async () => {
   // All that comes has come: a settled run, and a sweep beside it, which is a second simulation.
   const alone = (await state(page)).bytes;
   await until(page, "a sweep", (now) => /sweeping S/.test(now.text), 60);
-  await until(page, "the end of both", (now) => / 129² (± [\d.]+ %|[\d.]+[–-])/.test(now.text) && !/sweeping S/.test(now.text), 120);
+  await until(page, "the end of both", (now) => / 129² (± [\d.]+ %|[\d.]+[–-])/.test(now.text) && !/sweeping S/.test(now.text), 300);
   await page.waitForTimeout(5000);
   const before = (await state(page)).bytes;
   let most = 0;
