@@ -198,10 +198,12 @@ fn ageing_converges_with_its_tolerance() {
         let found = run(&demonstration(&[&format!("age.tolerance={tolerance}")]));
         let depths = [found.wear_depth_1_m, found.wear_depth_2_m].map(Option::unwrap);
         println!(
-            "tolerance {tolerance}: {} points, {:.1} and {:.1} nm, life {:.4} from {:.4}",
+            "tolerance {tolerance}: {} points, {:.1} and {:.1} nm, Rq {:.2} and {:.2} nm, life {:.4} from {:.4}",
             found.ages.len(),
             1e9 * depths[0],
             1e9 * depths[1],
+            1e9 * found.ages.last().unwrap().rq_1_m,
+            1e9 * found.ages.last().unwrap().rq_2_m,
             found.life_relative.unwrap(),
             found.ages[0].life_relative.unwrap()
         );

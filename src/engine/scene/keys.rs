@@ -267,7 +267,7 @@ pub const SECTIONS: &[Section] = &[
         doc: "Loading cycles beyond those simulated: passages (time.passages each) alternate with jumps of many cycles, whose wear is taken off the heights. With life.calibration_cycles damage goes on in the material, and what of it is not worn off makes pits.",
         keys: &[
             key("cycles", "", Number(1.0, 1e12), Defaulted, "loading cycles of each body; asperity run --cycles N sets it"),
-            key("tolerance", "", Number(1e-4, 0.1), Defaulted, "error in a jump of the heights, over the composite roughness or what is worn, and of the mean damage"),
+            key("tolerance", "", Number(1e-4, 0.1), Defaulted, "error in a jump of the heights, over the composite roughness (of smooth surfaces over what is worn), and of the mean damage"),
         ],
     },
     Section {

@@ -21,7 +21,7 @@ pub struct Wear {
 pub struct Age {
     /// Loading cycles of each body.
     pub cycles: f64,
-    /// Error of the heights that a jump may make, over the composite roughness or what is worn.
+    /// Error of the heights that a jump may make, over the composite roughness (of smooth surfaces over what is worn).
     pub tolerance: f64,
 }
 
