@@ -249,6 +249,20 @@ await test("a lesson asks and answers", async () => {
   assert.deepEqual(page.faults, []);
 });
 
+await test("surfaces age by a button, and are new again", async () => {
+  const page = await opened(`${disk}#S=0.5&nodes=65`);
+  await alive(page);
+  const cycles = (now) => Number(/ at ([\d.e]+) cycles/.exec(now.text)?.[1] ?? NaN);
+  await page.click('#acts [data-key="g"]');
+  await until(page, "surfaces that have aged", (now) => /life over cycles/.test(now.text) && cycles(now) > 1e4, 120);
+  await shot(page, "aged");
+  await page.click('#acts [data-key="y"]');
+  await until(page, "the next curve", (now) => /Rq over cycles/.test(now.text));
+  await page.click('#acts [data-key="g"]');
+  await until(page, "new surfaces", (now) => !/over cycles/.test(now.text));
+  assert.deepEqual(page.faults, []);
+});
+
 await test("links are obeyed, hostile ones refused in words", async () => {
   const page = await opened(`${disk}#scene=twin_disc&S=0.2&nodes=65`);
   await until(page, "the link's scene", (now) => /scene=twin_disc/.test(now.hash));
