@@ -599,6 +599,14 @@ fn no_random_scene_with_warm_oil_is_wrong_in_silence() {
 }
 
 #[test]
+#[ignore = "200 scenes, minutes"]
+fn two_hundred_random_scenes_with_warm_oil() {
+    let drawn = draw(200, warm);
+    println!("{}", drawn.report());
+    drawn.check(0.95);
+}
+
+#[test]
 #[ignore = "500 scenes, minutes"]
 fn five_hundred_random_scenes() {
     let drawn = draw(500, |_| Vec::new());
