@@ -42,13 +42,6 @@ impl Wear {
 }
 
 impl Scene {
-    /// The mechanics of one passage of new surfaces: without wear, ageing and heat.
-    #[must_use]
-    pub fn mechanical(mut self) -> Self {
-        self.heat = None;
-        self.with_new_surfaces()
-    }
-
     /// One passage of new surfaces: without wear and ageing.
     #[must_use]
     pub fn with_new_surfaces(mut self) -> Self {

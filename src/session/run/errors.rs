@@ -89,11 +89,15 @@ pub(super) fn coarser(scene: &Scene, plan: &Plan) -> Result<Scene, NoEstimate> {
     // Two orders would be no sequence.
     coarse.numerics.order = plan.order.into();
     coarse.record = None;
-    // Surfaces are new there; warm oil is warm on every mesh.
-    Ok(match coarse.warming() {
-        Warming::SurfacesAndOil => coarse.with_new_surfaces(),
-        Warming::None | Warming::Surfaces => coarse.mechanical(),
-    })
+    // Surfaces that age do so on every mesh, and warm oil is warm there; what the mechanics do not hang on is left out.
+    if coarse.age.is_none() {
+        coarse.wear = None;
+    }
+    match coarse.warming() {
+        Warming::None | Warming::SurfacesAndOil => {}
+        Warming::Surfaces => coarse.heat = None,
+    }
+    Ok(coarse)
 }
 
 /// Of the extremes, for an observed order of 1.3: 3/(2^1.3 − 1).
@@ -102,10 +106,6 @@ const EXTREMES: f64 = 2.0;
 /// Writes the errors into the summary of a run by `plan`, from that of a run on half the nodes; the band of life becomes
 /// theirs.
 pub(super) fn set_errors(fine: &mut Summary, coarse: &Summary, scene: &Scene, plan: &Plan) {
-    // A coarser mesh has new surfaces: between the two lies what has been worn off.
-    if scene.age.is_some() {
-        return;
-    }
     let life = |(life, below)| life_error(life, below, scene, plan);
     set_by(fine, coarse, (Crest::of(plan), plan.order), life);
 }

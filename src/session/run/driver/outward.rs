@@ -83,7 +83,8 @@ impl Driver {
     pub(super) fn hand_out(&mut self, sim: &Simulation) {
         let (on_top, before) = (self.is_on_top(), self.shown_before);
         let mut life = sim.metrics().life;
-        if let Some(life) = &mut life {
+        // The mesh below has aged; what is still on the way there does not differ from it by the mesh alone.
+        if let Some(life) = life.as_mut().filter(|_| !sim.is_ageing()) {
             self.widen(life);
         }
         let frame = self.pool.fill(|frame| {
@@ -100,14 +101,14 @@ impl Driver {
             self.outputs.frame(&frame);
         }
         self.gather_frame(sim, &frame, on_top);
-        if self.shows(&frame) {
+        if self.shows(sim, &frame) {
             self.link.latest.put(frame);
         }
     }
 
     /// Whether a frame is for the screen: the start-up of a finer mesh shows nothing that the coarser one has not shown, and
-    /// until its life has settled the one that has is not taken away; but not for ever.
-    fn shows(&self, frame: &Frame) -> bool {
+    /// until its life has settled, and its surfaces are as old, the one that has is not taken away; but not for ever.
+    fn shows(&self, sim: &Simulation, frame: &Frame) -> bool {
         if self.climb.rungs.is_empty() {
             return true;
         }
@@ -115,15 +116,20 @@ impl Driver {
         let settled = frame.metrics.life.is_some_and(|life| life.settled);
         let has_settled = self.has_settled || settled || !has_life;
         let is_live = self.gather.is_some();
-        frame.stage == Stage::Passage && (has_settled || !is_live || frame.passages >= PATIENCE)
+        let waited = frame.passages - self.waits_since >= PATIENCE;
+        frame.stage == Stage::Passage && (has_settled || !is_live || waited && !sim.is_ageing())
     }
 
     /// Looks for a period of a live run; on a coarser mesh for one with a settled life, or the time that it has.
-    /// While surfaces age nothing repeats, and no finer mesh begins them anew.
+    /// While surfaces age nothing repeats; a finer mesh begins them anew once they have.
     pub(super) fn gather_frame(&mut self, sim: &Simulation, frame: &Arc<Frame>, on_top: bool) {
-        let Some(gather) = self.gather.as_mut().filter(|_| !sim.is_ageing()) else {
+        let Some(gather) = self.gather.as_mut() else {
             return;
         };
+        if sim.is_ageing() {
+            self.waits_since = frame.passages;
+            return;
+        }
         let closing = if on_top {
             Closing::Fields
         } else {
