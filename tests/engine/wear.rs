@@ -60,7 +60,7 @@ fn smooth_bodies_lose_what_archard_says() {
 
 /// A crest of body 1 in full contact (E* 115 GPa, λ 50 µm, b 0.2 mm, k 1e-18/Pa, S .5) loses 1.92684e-6 of its height a passage:
 /// half of it after 359 732 (`assets/reference`: computed by hand). Of 20 nm, whose pressure is 145 MPa, all but the outermost
-/// half per cent of the half-width is in full contact.
+/// half per cent of the half-width is in full contact. On both meshes the error at .02 is that of the jumps: it goes with them.
 #[test]
 fn a_crest_is_halved_after_as_many_cycles_as_the_closed_form_says() {
     let wave = [
@@ -71,7 +71,7 @@ fn a_crest_is_halved_after_as_many_cycles_as_the_closed_form_says() {
         "age.cycles=359732",
     ];
     let mut last = f64::INFINITY;
-    for (nodes, tolerance, room) in [(257, 0.02, 0.02), (513, 0.02, 0.02), (513, 0.002, 0.005)] {
+    for (nodes, tolerance, room) in [(257, 0.02, 0.02), (513, 0.02, 0.02), (513, 0.002, 0.001)] {
         let own = [
             format!("grid.nodes={nodes}"),
             format!("age.tolerance={tolerance}"),
@@ -87,7 +87,9 @@ fn a_crest_is_halved_after_as_many_cycles_as_the_closed_form_says() {
             found.wear_depth_2_m
         );
         assert!((left / 0.5 - 1.0).abs() < room, "{left}");
-        assert!((left - 0.5).abs() <= last + 1e-3);
+        if tolerance < 0.02 {
+            assert!((left - 0.5).abs() < last);
+        }
         last = (left - 0.5).abs();
         assert_eq!(found.wear_depth_2_m, None);
         assert!((found.cycles.unwrap() / 359_732.0 - 1.0).abs() < 1e-9);

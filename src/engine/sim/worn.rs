@@ -16,7 +16,8 @@
 //! What a node wears is shared among the four columns about it by the weights of cubic interpolation, so that the volume Σ w λ_i/n is ∬∫ k p |U2 − U1| dt as the steps
 //! have it. All waves of a body in the domain wear the one that is kept: which crest meets which changes from cycle to cycle.
 //! While passages are simulated the heights stay: what one cycle takes, some 1e-13 m, is nothing to them. Only passages that
-//! nothing disturbs count, each as long as the run without ageing (`time.passages`).
+//! nothing disturbs count, each about as long as the run without ageing (`time.passages`): whole periods of both bodies' waves where
+//! there are short ones.
 //!
 //! The rate of the predicted heights is the first one of the next jump (PEC): one block of passages a jump. A jump is taken
 //! again, shorter, where its error over the composite roughness of the new surfaces (of smooth ones the depth that is worn), or
