@@ -1,11 +1,12 @@
 //! `asperity study`: progress on stderr, the report on stdout and, where asked for, in files.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use asperity_engine::files::write_whole;
 use asperity_study::accuracy::accuracy;
 use asperity_study::evidence::{
-    agreement_plot, evidence, evidence_table, evidence_text, experiments_plot,
+    agreement_plot, evidence, evidence_table, evidence_text, experiments_plot, kept_in,
 };
 use asperity_study::scaling::{scaling, scaling_report};
 use asperity_study::stability::{stability, stability_report};
@@ -14,8 +15,14 @@ use asperity_study::{Extent, Report, StudyError, StudyProgress, machine};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::{StudyArgs, StudyKind};
-use super::failure::Failure;
+use super::failure::{Failure, tell};
 use super::scenes::print;
+
+/// After which a study without a terminal tells where it is.
+const SILENCE: Duration = Duration::from_secs(60);
+
+/// Title of the study that keeps what it has found.
+const EVIDENCE: &str = "Evidence";
 
 /// Runs a study, prints its report and writes its files.
 pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
@@ -33,7 +40,12 @@ pub(crate) fn study(args: &StudyArgs) -> Result<u8, Failure> {
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}") {
         bar.set_style(style);
     }
+    let mut heard = Instant::now();
     let report = measured(args, &mut |name, done, all| {
+        if bar.is_hidden() && heard.elapsed() > SILENCE {
+            heard = Instant::now();
+            tell(&format!("{done} of {all}: {name}"));
+        }
         bar.set_length(all as u64);
         bar.set_position(done as u64);
         bar.set_message(name.to_owned());
@@ -72,12 +84,12 @@ fn measured(args: &StudyArgs, progress: &mut StudyProgress) -> Result<Report, St
         StudyKind::Scaling => Ok(scaling_report(&scaling(extent, only, progress)?)),
         StudyKind::Story => Ok(story_report(&story(extent, only, threads, progress)?)),
         StudyKind::Evidence => {
-            let result = evidence(extent, only, threads, progress)?;
+            let result = evidence(extent, only, threads, args.out.as_deref(), progress)?;
             let agreement = agreement_plot(&result).map_err(StudyError::Plot)?;
             let mut plots = vec![("evidence.svg".to_owned(), agreement)];
             plots.extend(experiments_plot(&result).map_err(StudyError::Plot)?);
             Ok(Report {
-                title: "Evidence",
+                title: EVIDENCE,
                 text: evidence_text(&result),
                 table: evidence_table(&result),
                 plots,
@@ -103,6 +115,10 @@ fn write(folder: &Path, text: String, report: &Report) -> Result<(), Failure> {
         let path = folder.join(name);
         let written = write_whole(&path, true, |at| std::fs::write(at, text));
         written.map_err(|error| failed(&path, &error))?;
+    }
+    // The report holds it all now.
+    if report.title == EVIDENCE {
+        drop(std::fs::remove_file(kept_in(folder)));
     }
     Ok(())
 }

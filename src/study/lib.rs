@@ -60,6 +60,9 @@ pub enum StudyError {
     /// Cases were asked for by a text that none has in its name.
     #[error("--only {0}: no case of this study has that in its name")]
     NoCase(String),
+    /// What is done can't be kept.
+    #[error("what is done can't be kept: {0}")]
+    Kept(String),
     /// A run of the study failed.
     #[error("{case}: {reason}")]
     Run {

@@ -9,7 +9,8 @@ use asperity_engine::physics::gear::{GearPair, GearTeeth, LoadSharing};
 use asperity_engine::scene::{CycleBasis, Scene, Surface, presets};
 use asperity_study::Extent;
 use asperity_study::evidence::{
-    Comparison, Evidence, EvidenceSet, Grade, evidence, evidence_table, evidence_text, planned,
+    Comparison, Evidence, EvidenceSet, Grade, evidence, evidence_table, evidence_text, kept_in,
+    planned,
 };
 
 fn set() -> EvidenceSet {
@@ -269,7 +270,7 @@ fn made_surfaces_fit_every_point() {
 }
 
 fn only(part: &str) -> Evidence {
-    let found = evidence(Extent::Quick, Some(part), 2, &mut |_, _, _| {}).unwrap();
+    let found = evidence(Extent::Quick, Some(part), 2, None, &mut |_, _, _| {}).unwrap();
     println!("{}", evidence_table(&found).markdown());
     found
 }
@@ -329,6 +330,50 @@ fn a_wrong_number_is_found_out() {
 
 #[test]
 fn a_name_that_nothing_has_is_refused() {
-    let error = evidence(Extent::Quick, Some("no such case"), 1, &mut |_, _, _| {});
+    let error = evidence(
+        Extent::Quick,
+        Some("no such case"),
+        1,
+        None,
+        &mut |_, _, _| {},
+    );
     assert!(error.unwrap_err().to_string().contains("no such case"));
+}
+
+/// A study that was stopped goes on: what stands in its folder is not done again, what is torn is, and another program's is
+/// left alone.
+#[test]
+fn what_was_found_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = || {
+        evidence(
+            Extent::Quick,
+            Some("Hertz, line"),
+            2,
+            Some(folder.path()),
+            &mut |_, _, _| {},
+        )
+        .unwrap()
+    };
+    let alone = only("Hertz, line");
+    assert_eq!(run().rows, alone.rows);
+    let kept = kept_in(folder.path());
+    let text = std::fs::read_to_string(&kept).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 3, "{text}");
+    // One is changed, and told as it stands; the other is torn, and found anew.
+    let (name, _) = lines[1].split_once("p_max\",").unwrap();
+    let changed = format!("{name}p_max\",7.0]]}}}}}}");
+    let torn = &lines[2][..lines[2].len() / 2];
+    std::fs::write(&kept, format!("{}\n{changed}\n{torn}", lines[0])).unwrap();
+    let again = run();
+    assert!(again.rows[0].found.contains(&7.0), "{:?}", again.rows[0]);
+    let anew = again.rows[0]
+        .found
+        .iter()
+        .filter(|found| alone.rows[0].found.contains(found));
+    assert_eq!(anew.count(), 1);
+    let other = format!("{{\"by\":\"another\"}}\n{changed}\n");
+    std::fs::write(&kept, other).unwrap();
+    assert_eq!(run().rows, alone.rows);
 }

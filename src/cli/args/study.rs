@@ -16,7 +16,7 @@ pub(crate) struct StudyArgs {
     /// The largest set of cases
     #[arg(long)]
     pub(crate) full: bool,
-    /// Folder for the report's files; created if missing
+    /// Folder for the report's files; created if missing. Evidence, which takes hours, keeps there what it has found, and goes on from it
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
     /// Only cases whose name or group contains this text

@@ -7,6 +7,7 @@
 
 mod dent;
 mod fit;
+mod kept;
 mod measure;
 mod plot;
 mod random;
@@ -14,18 +15,23 @@ mod report;
 mod set;
 mod tried;
 
+use kept::Kept;
+pub use kept::kept_in;
 use measure::SHRINKING;
 pub use plot::{agreement_plot, experiments_plot};
 pub use random::{AssumedRoughness, MadeRatio, MadeVariant, MadeWay, TriedPairs, Verdict};
 pub use report::{evidence_table, evidence_text};
-use set::Values;
 pub use set::{
     Comparison, EvidenceCase, EvidenceClaim, EvidenceNumber, EvidencePoint, EvidenceSet,
     Experiment, Forecast, Grade, Measure, planned,
 };
 pub use tried::{Judged, Tried, TriedDamage};
 
+use std::collections::BTreeSet;
+use std::path::Path;
 use std::time::Instant;
+
+use serde::{Deserialize, Serialize};
 
 use super::{Extent, StudyError, StudyProgress, refuse_nothing};
 use asperity_engine::scene::CycleBasis;
@@ -119,22 +125,28 @@ enum EvidenceJob<'a> {
 }
 
 /// What came of it.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 enum EvidenceResult {
-    Case(Result<Values, String>),
+    Case(Result<Found, String>),
     Point(Result<TriedDamage, String>),
 }
+
+/// Numbers that were found, by name.
+type Found = Vec<(String, f64)>;
 
 impl EvidenceJob<'_> {
     fn name(&self) -> String {
         match self {
             Self::Case(case, nodes, _) => format!("{}, {nodes} nodes", case.name),
-            Self::Point(experiment, point, basis, _) => {
-                format!("{}, {}, {}", experiment.name, point.label, basis.key())
+            Self::Point(experiment, point, basis, nodes) => {
+                let [name, label] = [&experiment.name, &point.label];
+                format!("{name}, {label}, {}, {nodes} nodes", basis.key())
             }
             Self::Pair(experiment, point, made, way, pair) => {
                 let [name, label] = [&experiment.name, &point.label];
                 let more = way.variant.map_or("", |at| &made.variant[at].name[..]);
-                format!("{name}, {label}, {} {more}, pair {pair}", way.basis.key())
+                let (basis, shortest_um) = (way.basis.key(), 1e6 * way.cutoff_short_m);
+                format!("{name}, {label}, {basis} {more}, from {shortest_um} um, pair {pair}")
             }
         }
     }
@@ -142,7 +154,9 @@ impl EvidenceJob<'_> {
     fn work(&self) -> EvidenceResult {
         match *self {
             Self::Case(case, nodes, finest) => {
-                EvidenceResult::Case(measure::measure(case, nodes, finest))
+                let found = measure::measure(case, nodes, finest);
+                let named = |(name, value): (&str, f64)| (name.to_owned(), value);
+                EvidenceResult::Case(found.map(|found| found.into_iter().map(named).collect()))
             }
             Self::Point(_, point, basis, nodes) => {
                 EvidenceResult::Point(tried::damage(point, basis, nodes))
@@ -162,14 +176,16 @@ fn nodes_of_experiments(extent: Extent) -> usize {
     }
 }
 
-/// Computes the set, `workers` runs at a time, each on one thread. `only`: what has that in its name or source.
+/// Computes the set, `workers` runs at a time, each on one thread. `only`: what has that in its name or source. `folder`: where
+/// each result is kept as it comes ([`kept_in`]), and those of a run that was stopped are taken from.
 ///
 /// # Errors
-/// [`StudyError`] when the data of the study are wrong, or nothing is called that.
+/// [`StudyError`] when the data of the study are wrong, nothing is called that, or the folder can't be written.
 pub fn evidence(
     extent: Extent,
     only: Option<&str>,
     workers: usize,
+    folder: Option<&Path>,
     progress: &mut StudyProgress,
 ) -> Result<Evidence, StudyError> {
     let clock = Instant::now();
@@ -210,7 +226,21 @@ pub fn evidence(
             }
         }
     }
-    let done = share_out(&jobs, workers, EvidenceJob::work, &mut |job, n_begun| {
+    let names: BTreeSet<String> = jobs.iter().map(EvidenceJob::name).collect();
+    if names.len() < jobs.len() {
+        let words = "two of its jobs are called alike: one would be told what the other found";
+        return Err(StudyError::Scene(words.to_owned()));
+    }
+    let kept = Kept::open(folder).map_err(|error| StudyError::Kept(error.to_string()))?;
+    let work = |job: &EvidenceJob| {
+        let name = job.name();
+        kept.known(&name).unwrap_or_else(|| {
+            let found = job.work();
+            kept.keep(&name, &found);
+            found
+        })
+    };
+    let done = share_out(&jobs, workers, work, &mut |job, n_begun| {
         progress(&job.name(), n_begun, jobs.len());
     });
     let (mut values, mut damages) = (Vec::new(), Vec::new());
@@ -248,7 +278,7 @@ pub fn evidence(
 fn rows(
     case: &EvidenceCase,
     nodes: [usize; 2],
-    found: &[Result<Values, String>],
+    found: &[Result<Found, String>],
 ) -> Vec<EvidenceRow> {
     let failed = found.iter().find_map(|found| found.as_ref().err().cloned());
     let of = |grid: usize, name: &str| {

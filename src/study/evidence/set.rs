@@ -10,7 +10,8 @@ use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
 
 /// The set, as it stands in the program.
-const SET: &str = include_str!("../../../assets/studies/evidence.toml");
+/// Its text.
+pub(super) const SET: &str = include_str!("../../../assets/studies/evidence.toml");
 
 closed_set! {
     /// Where a number comes from.

@@ -1,5 +1,7 @@
 //! Experiments: the damage at their operating points by every counting of cycles, and whether what they say holds.
 
+use serde::{Deserialize, Serialize};
+
 use super::measure::{on_grid, run};
 use super::random::TriedPairs;
 use super::set::{Comparison, EvidenceClaim, EvidencePoint, Experiment};
@@ -15,7 +17,7 @@ const ALIKE: f64 = 1.5;
 const HALF_A_DECADE: f64 = 3.162_277_660_168_379_5;
 
 /// A point by one counting.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TriedDamage {
     /// 1/life in own loading cycles, or the stress over that of the smooth contact.
     pub value: f64,
