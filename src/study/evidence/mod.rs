@@ -226,23 +226,7 @@ pub fn evidence(
             }
         }
     }
-    let names: BTreeSet<String> = jobs.iter().map(EvidenceJob::name).collect();
-    if names.len() < jobs.len() {
-        let words = "two of its jobs are called alike: one would be told what the other found";
-        return Err(StudyError::Scene(words.to_owned()));
-    }
-    let kept = Kept::open(folder).map_err(|error| StudyError::Kept(error.to_string()))?;
-    let work = |job: &EvidenceJob| {
-        let name = job.name();
-        kept.known(&name).unwrap_or_else(|| {
-            let found = job.work();
-            kept.keep(&name, &found);
-            found
-        })
-    };
-    let done = share_out(&jobs, workers, work, &mut |job, n_begun| {
-        progress(&job.name(), n_begun, jobs.len());
-    });
+    let done = done(&jobs, workers, folder, progress)?;
     let (mut values, mut damages) = (Vec::new(), Vec::new());
     for done in done {
         match done {
@@ -272,6 +256,32 @@ pub fn evidence(
         made: made.clone(),
         seconds: clock.elapsed().as_secs_f64(),
     })
+}
+
+/// What comes of all jobs, by this run or by one before.
+fn done(
+    jobs: &[EvidenceJob],
+    workers: usize,
+    folder: Option<&Path>,
+    progress: &mut StudyProgress,
+) -> Result<Vec<EvidenceResult>, StudyError> {
+    let names: BTreeSet<String> = jobs.iter().map(EvidenceJob::name).collect();
+    if names.len() < jobs.len() {
+        let words = "two of its jobs are called alike: one would be told what the other found";
+        return Err(StudyError::Scene(words.to_owned()));
+    }
+    let kept = Kept::open(folder).map_err(|error| StudyError::Kept(error.to_string()))?;
+    let work = |job: &EvidenceJob| {
+        let name = job.name();
+        kept.known(&name).unwrap_or_else(|| {
+            let found = job.work();
+            kept.keep(&name, &found);
+            found
+        })
+    };
+    Ok(share_out(jobs, workers, work, &mut |job, n_begun| {
+        progress(&job.name(), n_begun, jobs.len());
+    }))
 }
 
 /// The rows of a case from what its two grids gave.
