@@ -275,12 +275,13 @@ fn add_wear(lines: &mut Lines, s: &Summary) {
         lines.add(
             if k == 0 { "ages" } else { "" },
             format!(
-                "{:>9} cycles: worn {} and {}, Rq {} and {}, p_max {}, on contacts {} %, friction {}{}{}",
+                "{:>9} cycles: worn {} and {}, Rq {} and {}{}, p_max {}, on contacts {} %, friction {}{}{}",
                 sig(age.cycles, 3),
                 depth(Some(age.wear_depth_1_m)),
                 depth(Some(age.wear_depth_2_m)),
                 NM.show(age.rq_1_m, 3),
                 NM.show(age.rq_2_m, 3),
+                known(age.lambda_ratio, |lambda| format!(", lambda {}", sig(lambda, 3))),
                 GPA.show(age.p_max_pa, 3),
                 sig(100.0 * age.contact_load_ratio, 2),
                 sig(age.friction_coefficient, 3),

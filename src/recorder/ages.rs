@@ -9,6 +9,7 @@ use super::colour::{ORANGE, SKY};
 use super::plot::{PlotBox, line, points, ticks_at};
 use super::summary::chunk;
 use asperity_engine::math::number::ticks;
+use asperity_engine::scene::{Life, Scene, Surface};
 use asperity_engine::sim::AgePoint;
 
 /// Loading cycles.
@@ -22,39 +23,59 @@ pub(crate) struct AgeCurves {
     pub(crate) title: &'static str,
     names: &'static [&'static str],
     values: fn(&AgePoint) -> [Option<f64>; 2],
+    /// Whether a scene's surfaces have it.
+    has: fn(&Scene) -> bool,
 }
 
 /// All of them.
-pub(crate) const AGES: [AgeCurves; 6] = [
+pub(crate) static AGES: [AgeCurves; 7] = [
     AgeCurves {
         entity: "ages/worn_nm",
         title: "Worn, nm",
         names: &["body 1", "body 2"],
         values: |age| [age.wear_depth_1_m, age.wear_depth_2_m].map(|m| Some(1e9 * m)),
+        has: |_| true,
     },
     AgeCurves {
         entity: "ages/rq_nm",
         title: "Roughness Rq, nm",
         names: &["body 1", "body 2"],
         values: |age| [age.rq_1_m, age.rq_2_m].map(|m| Some(1e9 * m)),
+        has: |_| true,
+    },
+    AgeCurves {
+        entity: "ages/lambda_ratio",
+        title: "Lambda ratio",
+        names: &["lambda ratio"],
+        values: |age| [age.lambda_ratio, None],
+        has: |scene| {
+            scene.lubricant.is_some()
+                && scene
+                    .surfaces()
+                    .iter()
+                    .any(|surface| !matches!(surface, Surface::Smooth {}))
+        },
     },
     AgeCurves {
         entity: "ages/pits_percent",
         title: "Surface with pits, %",
         names: &["body 1", "body 2"],
         values: |age| [age.pitted_area_1, age.pitted_area_2].map(|area| Some(100.0 * area?)),
+        has: |scene| life_of(scene).is_some_and(|life| life.calibration().is_some()),
     },
     AgeCurves {
         entity: "ages/p_max_GPa",
         title: "Greatest pressure, GPa",
         names: &["p_max"],
         values: |age| [Some(1e-9 * age.p_max_pa), None],
+        has: |_| true,
     },
     AgeCurves {
         entity: "ages/friction_coefficient",
         title: "Friction coefficient",
         names: &["friction coefficient"],
         values: |age| [Some(age.friction_coefficient), None],
+        has: |_| true,
     },
     AgeCurves {
         entity: "ages/log10_life",
@@ -66,8 +87,19 @@ pub(crate) const AGES: [AgeCurves; 6] = [
                 None,
             ]
         },
+        has: |scene| life_of(scene).is_some(),
     },
 ];
+
+fn life_of(scene: &Scene) -> Option<&Life> {
+    scene.life.as_ref()
+}
+
+/// Those that a scene has; none where its surfaces stay new.
+pub(crate) fn of(scene: &Scene) -> Vec<&'static AgeCurves> {
+    let all = AGES.iter().filter(|_| scene.age.is_some());
+    all.filter(|curves| (curves.has)(scene)).collect()
+}
 
 /// Lower edge of a picture, over its width.
 const HEIGHT: f64 = 0.6;

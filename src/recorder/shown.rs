@@ -1,5 +1,6 @@
 //! What the layout has to know of the pictures.
 
+use super::ages::{self, AgeCurves};
 use super::maps::rises;
 use super::plot::PlotBox;
 use super::tooth::ShownTooth;
@@ -54,8 +55,8 @@ pub(crate) struct ShownViews {
     pub(crate) life: bool,
     /// Whether a body has a hardness at which it flows.
     pub(crate) yields: bool,
-    /// Loading cycles that the surfaces age over.
-    pub(crate) age_cycles: Option<f64>,
+    /// Curves of surfaces that age.
+    pub(crate) ages: Vec<&'static AgeCurves>,
     /// Plots for researchers; none in runs side by side.
     pub(crate) research: Vec<ResearchPlot>,
     /// Maps of temperature; none where the scene asks for no heat.
@@ -86,7 +87,7 @@ impl ShownViews {
             damaged: life.map_or([false; 2], Life::maps),
             life: first.metrics.life.is_some(),
             yields: first.metrics.yielded_m3.is_some(),
-            age_cycles: scene.and_then(|scene| Some(scene.age?.cycles)),
+            ages: scene.map_or_else(Vec::new, ages::of),
             research: Vec::new(),
             rises: rises(first),
         }

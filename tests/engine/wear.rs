@@ -209,6 +209,12 @@ fn ageing_converges_with_its_tolerance() {
             found.life_relative.unwrap(),
             found.ages[0].life_relative.unwrap()
         );
+        // The film of a formula stays, the roughness that it is held against does not.
+        for age in &found.ages {
+            let rougher = found.rq_1_m.hypot(found.rq_2_m) / age.rq_1_m.hypot(age.rq_2_m);
+            let lambda = age.lambda_ratio.unwrap() / found.lambda_ratio.unwrap();
+            assert!((lambda / rougher - 1.0).abs() < 1e-12, "{lambda} {rougher}");
+        }
         (found.ages.len(), depths)
     });
     let apart = |one: [f64; 2], two: [f64; 2]| {

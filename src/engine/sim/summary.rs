@@ -358,6 +358,9 @@ pub struct AgePoint {
     pub rq_1_m: f64,
     /// Same of body 2.
     pub rq_2_m: f64,
+    /// Central film of a published formula over the composite Rq of now; `None`: smooth or dry.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lambda_ratio: Option<f64>,
     /// Life of surfaces that would stay as they are now.
     pub life_relative: Option<f64>,
     /// Greatest pressure of a step, Pa: the mean over the steps.

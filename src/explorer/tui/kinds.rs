@@ -202,6 +202,8 @@ pub enum Aged {
     Life,
     /// Root-mean-square heights.
     Rq,
+    /// Lambda ratio of the film of a formula.
+    Lambda,
     /// Greatest depths worn.
     Depth,
     /// Greatest pressure.
@@ -214,9 +216,10 @@ pub enum Aged {
 
 impl CurveKind {
     const NEW: [Self; 3] = [Self::Life, Self::Friction, Self::Stribeck];
-    const AGED: [Self; 9] = [
+    const AGED: [Self; 10] = [
         Self::Aged(Aged::Life),
         Self::Aged(Aged::Rq),
+        Self::Aged(Aged::Lambda),
         Self::Aged(Aged::Depth),
         Self::Aged(Aged::Pressure),
         Self::Aged(Aged::Friction),

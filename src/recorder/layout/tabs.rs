@@ -4,7 +4,7 @@
 use rerun::blueprint::{ContainerLike, Grid, Horizontal, TextLogView, Vertical};
 
 use super::views::Views;
-use crate::ages::{self, AGES};
+use crate::ages::{self, AgeCurves};
 use crate::damage;
 use crate::entities::centre_line::CENTRE_LINE;
 use crate::entities::maps::INTERFEROGRAM;
@@ -152,11 +152,13 @@ fn analysis(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
 
 /// What surfaces come to over loading cycles.
 fn ageing(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
-    shown.age_cycles?;
-    let all =
-        AGES.map(|curves| views.plot(curves.title, &[curves.entity], &ages::plot(), Margin::Plain));
+    let mut plot = |curves: &AgeCurves| {
+        views.plot(curves.title, &[curves.entity], &ages::plot(), Margin::Plain)
+    };
+    let all: Vec<ContainerLike> = shown.ages.iter().map(|&curves| plot(curves)).collect();
+    let is_empty = all.is_empty();
     let grid = Grid::new(all).with_grid_columns(3);
-    Some(grid.with_name("Ageing").into())
+    (!is_empty).then(|| grid.with_name("Ageing").into())
 }
 
 fn over_time(views: &mut Views, shown: &ShownViews, pressure: bool) -> ContainerLike {

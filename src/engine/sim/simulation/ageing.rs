@@ -141,6 +141,10 @@ fn point(
         pitted_area_2: area(1),
         rq_1_m,
         rq_2_m,
+        lambda_ratio: found.lambda_ratio.and_then(|new| {
+            let rougher = found.rq_1_m.hypot(found.rq_2_m) / rq_1_m.hypot(rq_2_m);
+            Some(new * rougher).filter(|lambda| lambda.is_finite())
+        }),
         life_relative: found.life_relative,
         p_max_pa: found.p_max_pa,
         h_central_m: found.h_central_m,

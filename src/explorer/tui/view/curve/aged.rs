@@ -73,6 +73,7 @@ fn name(aged: Aged) -> &'static str {
     match aged {
         Aged::Life => "life over cycles",
         Aged::Rq => "Rq over cycles",
+        Aged::Lambda => "λ over cycles",
         Aged::Depth => "wear over cycles",
         Aged::Pressure => "greatest pressure",
         Aged::Friction => "friction",
@@ -82,7 +83,7 @@ fn name(aged: Aged) -> &'static str {
 
 fn dimension(aged: Aged) -> Dimension {
     match aged {
-        Aged::Life | Aged::Friction => Dimension::Plain,
+        Aged::Life | Aged::Lambda | Aged::Friction => Dimension::Plain,
         Aged::Rq | Aged::Depth => Dimension::Height,
         Aged::Pressure => Dimension::Pressure,
         Aged::Pits => Dimension::Share,
@@ -94,6 +95,7 @@ fn both(aged: Aged, age: &AgePoint) -> [Option<f64>; 2] {
     match aged {
         Aged::Life => [age.life_relative.filter(|life| *life > 0.0), None],
         Aged::Rq => [Some(age.rq_1_m), Some(age.rq_2_m)],
+        Aged::Lambda => [age.lambda_ratio, None],
         Aged::Depth => [Some(age.wear_depth_1_m), Some(age.wear_depth_2_m)],
         Aged::Pressure => [Some(age.p_max_pa), None],
         Aged::Friction => [Some(age.friction_coefficient), None],
