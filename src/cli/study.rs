@@ -19,7 +19,7 @@ use super::failure::{Failure, tell};
 use super::scenes::print;
 
 /// After which a study without a terminal tells where it is.
-const SILENCE: Duration = Duration::from_secs(60);
+const SILENCE: Duration = Duration::from_mins(1);
 
 /// Title of the study that keeps what it has found.
 const EVIDENCE: &str = "Evidence";
