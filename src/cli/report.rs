@@ -200,7 +200,8 @@ fn add_results(lines: &mut Lines, scene: &Scene, s: &Summary) {
     add_wear(lines, s);
     life::add_life(lines, scene, s);
     let (load, mass) = (s.load_error, s.mass_error);
-    lines.add("errors", format!("load {load:.1e}, mass {mass:.1e}"));
+    let heat = known(s.heat_error, |heat| format!(", heat {heat:.1e}"));
+    lines.add("errors", format!("load {load:.1e}, mass {mass:.1e}{heat}"));
     for (k, caution) in s.cautions.iter().enumerate() {
         lines.add(if k == 0 { "cautions" } else { "" }, &caution.text);
     }

@@ -119,6 +119,7 @@ fn heat_changes_nothing_else() {
         contact_temperature_max_k: None,
         film_temperature_max_k: None,
         heat_share_1: None,
+        heat_error: None,
         flash_temperature_blok_k: None,
         inlet_heating_factor: None,
         cautions: plain.cautions.clone(),
@@ -259,4 +260,27 @@ fn the_plan_foretells_what_heat_does_to_friction() {
         assert_eq!(foretold.matters(), friction_falls);
         assert!(LeftHeat::new(&with(&["heat.bulk_k=353"]), &plan).is_none());
     }
+}
+
+/// What enters both bodies in every step is the work of friction by the traction that is handed out, and of the flow: to 1e-3,
+/// in oil that feeds back, with roughness, dry, where the bodies stand or run against each other, on a line and a point.
+#[test]
+fn the_heat_of_every_step_is_the_work_of_friction_and_flow() {
+    let thins = "heat.viscosity_temperature_exponent=1.1";
+    for sets in [
+        &[thins][..],
+        &[thins, "motion.slide_roll=0"],
+        &[thins, "motion.slide_roll=2"],
+        &[thins, "motion.slide_roll=-0.8"],
+        &[thins, "motion.entrainment_m_s=8"],
+        &["heat.bulk_k=353"],
+        &["heat.bulk_k=353", "lubricant=none"],
+    ] {
+        let found = run(&demonstration(sets));
+        let error = found.heat_error.unwrap();
+        println!("{sets:?}: {error:.1e}");
+        assert!(error < 1e-3, "{sets:?}: {error}");
+    }
+    let line = run(&scene(DRY_LINE, &["grid.nodes=129".to_owned()]));
+    assert!(line.heat_error.unwrap() < 1e-6, "{:?}", line.heat_error);
 }

@@ -50,6 +50,8 @@ pub(super) struct HeatStage {
     solved: [Vec<f64>; 2],
     /// Rise in the middle of the film over the bulk, K.
     middle: Vec<f64>,
+    /// What has entered both bodies in this step, ∬ of W/m² over the grid.
+    entered: f64,
 }
 
 /// The oil at every node.
@@ -80,12 +82,14 @@ pub(super) struct Warmth {
     film: Film,
     /// Greatest rise of surfaces and oil in the steps that count, K.
     greatest_k: [f64; 2],
+    /// Greatest part of the heat of a step that has not entered the bodies.
+    lost: f64,
     /// Sums over them: steps, the mean rise of both surfaces over the Hertz ellipse, the share of body 1.
     sums: [f64; 3],
 }
 
 saved! {
-    Warmth { parts: state, film; free: greatest_k, sums; }
+    Warmth { parts: state, film; free: greatest_k, lost, sums; }
     holds |_, saved| saved.greatest_k.iter().all(|k| *k >= 0.0) && saved.sums[0] >= 0.0
 }
 
@@ -96,6 +100,7 @@ pub(super) struct Warmed {
     pub(super) film_k: f64,
     pub(super) mean_k: f64,
     pub(super) share_1: f64,
+    pub(super) lost: f64,
 }
 
 /// A step that has been solved.
@@ -149,6 +154,7 @@ impl HeatStage {
             changes: vec![[0.0; 2]; grid.ny],
             nodes: vec![std::array::from_fn(|_| vec![0.0; grid.nx]); grid.ny],
             thinning,
+            entered: 0.0,
         })
     }
 
@@ -158,6 +164,7 @@ impl HeatStage {
             state: self.heat.cold(),
             film: Film::cold(self.resistance.len()),
             greatest_k: [0.0; 2],
+            lost: 0.0,
             sums: [0.0; 3],
         }
     }
@@ -209,6 +216,7 @@ impl HeatStage {
                 break;
             }
             self.heat.share(&self.now.made, &self.resistance);
+            self.entered = step.grid.integrate(|n| self.now.made[n]);
             let walls = self.now.walls_k.iter_mut().zip(&self.heat.rise[0]);
             for ((walls, one), two) in walls.zip(&self.heat.rise[1]) {
                 *walls = 0.5 * (one + two);
@@ -352,6 +360,15 @@ impl HeatStage {
         }
     }
 
+    /// Holds what has entered the bodies against the work of friction (∬ of W/m² over the grid), which is measured apart from
+    /// the heat, and of the flow.
+    pub(super) fn balance(&self, warmth: &mut Warmth, grid: &Grid, friction: f64) {
+        let work = friction + grid.integrate(|n| self.now.flowing[n]);
+        if work > 0.0 {
+            warmth.lost = warmth.lost.max((self.entered / work - 1.0).abs());
+        }
+    }
+
     /// Mean rise of both surfaces over the Hertz ellipse, and the share of body 1.
     fn means(&self, grid: &Grid, (a, b): (f64, f64)) -> (f64, f64) {
         let inside = |n: usize| {
@@ -400,6 +417,7 @@ impl Warmth {
     /// What has been counted is of other conditions; how warm the bodies are stays.
     pub(super) fn forget(&mut self) {
         self.greatest_k = [0.0; 2];
+        self.lost = 0.0;
         self.sums = [0.0; 3];
     }
 
@@ -411,6 +429,7 @@ impl Warmth {
             film_k: self.greatest_k[1],
             mean_k: mean / n,
             share_1: share / n,
+            lost: self.lost,
         })
     }
 }

@@ -246,6 +246,9 @@ pub struct Summary {
     /// Part of the heat that enters body 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heat_share_1: Option<f64>,
+    /// Greatest part by which the heat that enters both bodies in a step differs from the work of friction and flow.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat_error: Option<f64>,
     /// Flash temperature after Blok with the friction found, K.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flash_temperature_blok_k: Option<f64>,

@@ -73,6 +73,7 @@ fn with_heat(sim: View, summary: Summary) -> Summary {
         film_temperature_max_k: Some(heat.bulk_k + warmed.film_k)
             .filter(|_| scene.lubricant.is_some()),
         heat_share_1: Some(warmed.share_1),
+        heat_error: Some(warmed.lost),
         flash_temperature_blok_k: Some(blok).filter(|blok| blok.is_finite()),
         inlet_heating_factor: heat_stage::inlet(scene),
         ..summary

@@ -30,6 +30,9 @@ pub(super) fn watch(
         heat(plan, state, work, attempted);
     }
     let measured = measure_state(plan, state, work);
+    if on_fine {
+        balance_heat(plan, state, work, &measured);
+    }
     let size = plan.size_now(&state.drive);
     let looks = on_fine && state.phase.has_stress();
     if looks && let Some(stress) = &mut work.stress {
@@ -90,6 +93,19 @@ fn heat(plan: &SimPlan, state: &mut State, work: &mut Work, attempted: &Attempte
     if state.phase == Phase::Passage && !state.drive.is_walking() {
         let size = plan.size_now(&state.drive);
         stage.count(warmth, grid, (size, size * plan.scaling.b_over_a));
+    }
+}
+
+/// Holds the heat of the step against the work of friction by the traction that is handed out.
+fn balance_heat(plan: &SimPlan, state: &mut State, work: &Work, measured: &Measured) {
+    let (Some(stage), Some(warmth)) = (&work.heat, &mut state.warmth) else {
+        return;
+    };
+    if state.phase == Phase::Passage && !state.drive.is_walking() {
+        let grid = &work.solver.grid;
+        let load = plan.scaling.p_hertz_pa * grid.integrate(|n| state.contact.pressure[n]);
+        let friction = measured.friction.abs() * load * sliding_m_s(&state.drive);
+        stage.balance(warmth, grid, friction);
     }
 }
 
