@@ -83,6 +83,7 @@ impl Window {
             risk_pa: frame.risk_pa.clone(),
             planes: frame.planes.clone(),
             damage: frame.damage.clone(),
+            suffered: frame.suffered.clone(),
             metrics: frame.metrics.clone(),
             grounds: frame.grounds,
             ..*frame

@@ -6,14 +6,13 @@ use rerun::time::TimePoint;
 use rerun::{AsComponents, Color, Scalars, SeriesLines, TimeCell};
 
 use super::colour::{ORANGE, SKY};
+use super::moment::CYCLES;
 use super::plot::{PlotBox, line, points, ticks_at};
 use super::summary::chunk;
 use asperity_engine::math::number::ticks;
 use asperity_engine::scene::{Life, Scene, Surface};
 use asperity_engine::sim::AgePoint;
 
-/// Loading cycles.
-const CYCLES: &str = "cycles";
 /// Of body 1 and 2.
 const COLOURS: [[u8; 3]; 2] = [SKY, ORANGE];
 
@@ -61,7 +60,7 @@ pub(crate) static AGES: [AgeCurves; 7] = [
         title: "Surface with pits, %",
         names: &["body 1", "body 2"],
         values: |age| [age.pitted_area_1, age.pitted_area_2].map(|area| Some(100.0 * area?)),
-        has: |scene| life_of(scene).is_some_and(|life| life.calibration().is_some()),
+        has: pits,
     },
     AgeCurves {
         entity: "ages/p_max_GPa",
@@ -93,6 +92,12 @@ pub(crate) static AGES: [AgeCurves; 7] = [
 
 fn life_of(scene: &Scene) -> Option<&Life> {
     scene.life.as_ref()
+}
+
+/// Whether a scene's damage is followed to where it makes pits.
+pub(crate) fn pits(scene: &Scene) -> bool {
+    let calibrated = life_of(scene).is_some_and(|life| life.calibration().is_some());
+    scene.age.is_some() && calibrated
 }
 
 /// Those that a scene has; none where its surfaces stay new.

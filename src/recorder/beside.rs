@@ -280,7 +280,7 @@ impl Written<'_> {
     /// What is logged next is of that moment of the first run.
     fn at(&self, moment: usize) {
         let frame = &self.first.steps[moment];
-        let now = Moment::new(frame.step, frame.time_s, frame.passages);
+        let now = Moment::of_frame(frame);
         self.stream.set_time(now);
     }
 

@@ -12,7 +12,7 @@ use rerun::{Rgba32, Scalars, SegmentationImage};
 use super::classes;
 use super::colour::{BACKGROUND, GREEN, WHITE, faded};
 use super::depths::Depths;
-use super::entities::{DAMAGE, damage_block};
+use super::entities::{DAMAGE, SUFFERED, damage_block};
 use super::picture::{Field, PixelField};
 use super::plot::{PlotBox, ticks_at};
 use super::raster::{Height, RasterEntity};
@@ -32,13 +32,24 @@ const DEPTH: f64 = 1.5;
 /// Damage less than this many powers of ten below the reference is as good as none.
 const LEAST: f32 = -12.0;
 
-/// The damage maps of both bodies.
+/// The damage maps of both bodies: of a crossing, and of all cycles.
 #[derive(Default)]
 pub(crate) struct Damage {
     blocks: [Option<Block>; 2],
+    suffered: [Option<Block>; 2],
+}
+
+/// What a map tells.
+#[derive(Debug, Clone, Copy)]
+enum Mapped {
+    /// The damage of a crossing over that of the smooth contact's worst point.
+    Crossing,
+    /// That of all cycles; 1 is a pit.
+    AllCycles,
 }
 
 struct Block {
+    mapped: Mapped,
     entity: &'static str,
     raster: RasterEntity,
     depths: Depths,
@@ -61,7 +72,24 @@ impl View for Damage {
     /// Its range is the same in every recording.
     fn widen(&mut self, _stream: &Stream, _scene: Option<&Scene>, _scope: &Scope) {}
 
-    fn log(&mut self, _stream: &Stream, _frame: &Frame) {}
+    /// What all cycles have left changes with each jump, and stands after the cycles that it is of.
+    fn log(&mut self, stream: &Stream, frame: &Frame) {
+        let now = stream.now();
+        stream.set_time(now.after_cycles(frame.age.map(|age| age.cycles)));
+        for (body, damage) in frame.suffered.iter().enumerate() {
+            if let Some(damage) = damage {
+                let block = &mut self.suffered[body];
+                log_block(
+                    stream,
+                    block,
+                    (SUFFERED[body], Mapped::AllCycles),
+                    damage,
+                    frame.a_m,
+                );
+            }
+        }
+        stream.set_time(now);
+    }
 
     /// The maps that have changed: what collects slowly does not need every picture.
     fn log_seldom(&mut self, stream: &Stream, frame: &Frame) {
@@ -69,20 +97,42 @@ impl View for Damage {
             let Some(damage) = damage.as_ref().filter(|damage| damage.filled > 0) else {
                 continue;
             };
-            let fits = |block: &Block| block.fits(damage);
-            if !self.blocks[body].as_ref().is_some_and(fits) {
-                self.blocks[body] = Block::new(stream, DAMAGE[body], damage, frame.a_m);
-            }
-            if let Some(block) = &mut self.blocks[body] {
-                block.log(stream, damage);
-            }
+            let block = &mut self.blocks[body];
+            log_block(
+                stream,
+                block,
+                (DAMAGE[body], Mapped::Crossing),
+                damage,
+                frame.a_m,
+            );
         }
+    }
+}
+
+/// Logs a map that has changed, in a picture that is set up where there is none that fits.
+fn log_block(
+    stream: &Stream,
+    block: &mut Option<Block>,
+    of: (&'static str, Mapped),
+    damage: &DamageBlock,
+    a_m: f64,
+) {
+    if !block.as_ref().is_some_and(|block| block.fits(damage)) {
+        *block = Block::new(stream, of, damage, a_m);
+    }
+    if let Some(block) = block {
+        block.log(stream, damage);
     }
 }
 
 impl Block {
     /// Sets up the picture; `None` for a block that makes none.
-    fn new(stream: &Stream, entity: &'static str, damage: &DamageBlock, a_m: f64) -> Option<Self> {
+    fn new(
+        stream: &Stream,
+        (entity, mapped): (&'static str, Mapped),
+        damage: &DamageBlock,
+        a_m: f64,
+    ) -> Option<Self> {
         let depths = Depths::down_to(&damage.depths_m, DEPTH * a_m)?;
         if damage.columns == 0 || damage.damage.len() != damage.columns * damage.depths_m.len() {
             return None;
@@ -126,6 +176,7 @@ impl Block {
             &Scalars::new(sides.into_iter().chain(shown)),
         );
         Some(Self {
+            mapped,
             entity,
             raster,
             depths,
@@ -168,8 +219,12 @@ impl Block {
         } else {
             String::new()
         };
+        let what = match self.mapped {
+            Mapped::Crossing => "the pit starts here (dot)",
+            Mapped::AllCycles => "most (dot)",
+        };
         let label = format!(
-            "the pit starts here (dot): D = {}, {} µm deep{not_yet}",
+            "{what}: D = {}, {} µm deep{not_yet}",
             sig(damage.pit_damage, 3),
             sig(UM.of(damage.pit_depth_m), 3),
         );

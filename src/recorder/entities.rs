@@ -129,6 +129,9 @@ pub(crate) const DAMAGE: [&str; 2] = [
     "damage/body_2_log10_relative",
 ];
 
+/// What all cycles have left in the material.
+pub(crate) const SUFFERED: [&str; 2] = ["ages/damage_body_1_log10", "ages/damage_body_2_log10"];
+
 /// Where the lengths of a damage map are, m.
 pub(crate) fn damage_block(entity: &str) -> String {
     format!("{entity}/block")

@@ -127,7 +127,7 @@ impl Recorder {
 
     /// Logs one frame; whether its fields were due.
     fn log_frame(&mut self, frame: &Frame) -> Result<bool, ObserveError> {
-        let now = Moment::new(frame.step, frame.time_s, frame.passages);
+        let now = Moment::of_frame(frame);
         self.stream.set_time(now);
         let scene = self.scene.as_deref();
         let around = || Window::around(frame, Scope::of(scene, frame).to_come.size);
@@ -186,7 +186,7 @@ impl Recorder {
             return;
         };
         if let Some(views) = self.views.as_mut().filter(|views| views.cadence.has_room()) {
-            let now = Moment::new(frame.step, frame.time_s, frame.passages);
+            let now = Moment::of_frame(&frame);
             self.stream.set_time(now);
             let (scene, frame) = (self.scene.as_deref(), window.cut(&frame));
             views.log_whole(&self.stream, scene, &frame);

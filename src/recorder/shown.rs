@@ -1,6 +1,7 @@
 //! What the layout has to know of the pictures.
 
 use super::ages::{self, AgeCurves};
+use super::entities::SUFFERED;
 use super::maps::rises;
 use super::plot::PlotBox;
 use super::tooth::ShownTooth;
@@ -55,6 +56,8 @@ pub(crate) struct ShownViews {
     pub(crate) life: bool,
     /// Whether a body has a hardness at which it flows.
     pub(crate) yields: bool,
+    /// Maps of the damage of all cycles; none where it is not followed.
+    pub(crate) suffered: &'static [&'static str],
     /// Curves of surfaces that age.
     pub(crate) ages: Vec<&'static AgeCurves>,
     /// Plots for researchers; none in runs side by side.
@@ -87,6 +90,11 @@ impl ShownViews {
             damaged: life.map_or([false; 2], Life::maps),
             life: first.metrics.life.is_some(),
             yields: first.metrics.yielded_m3.is_some(),
+            suffered: if scene.is_some_and(ages::pits) {
+                &SUFFERED
+            } else {
+                &[]
+            },
             ages: scene.map_or_else(Vec::new, ages::of),
             research: Vec::new(),
             rises: rises(first),

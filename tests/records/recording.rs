@@ -12,7 +12,7 @@ use asperity_engine::observe::{
     Observer, ObserverReport, Overwrite, RunEvent, RunEventKind, SetBy,
 };
 use asperity_engine::scene::{Event, Record, Scene};
-use asperity_engine::sim::{DamageBlock, Frame, Stage};
+use asperity_engine::sim::{AgePoint, DamageBlock, Frame, Stage};
 use asperity_picture::Window;
 use asperity_recorder::Recorder;
 use asperity_session::{Queue, WhenFull};
@@ -798,6 +798,41 @@ fn damage_maps_come_when_they_are_there_and_change() {
             .iter()
             .all(|path| !path.contains("damage/body_1"))
     );
+}
+
+/// What all cycles have left is logged with each jump, after the cycles that it is of; every other picture after those of its
+/// heights, which are a jump ahead.
+#[test]
+fn what_ages_stands_on_a_timeline_of_cycles() {
+    let jump = 1000.0;
+    let frames: Vec<_> = with_damage(0)
+        .into_iter()
+        .map(|frame| {
+            let mut frame = Frame::clone(&frame);
+            let done = jump * (frame.step / 3) as f64;
+            frame.suffered = frame.damage.clone();
+            frame.cycles = Some(done + jump);
+            frame.age = Some(AgePoint {
+                cycles: done,
+                ..AgePoint::default()
+            });
+            Arc::new(frame)
+        })
+        .collect();
+    let contents = recorded(&frames);
+    let cycles = |entity: &str| -> BTreeSet<i64> {
+        let chunks = contents.data.iter();
+        chunks
+            .filter(|chunk| chunk.entity_path().to_string() == entity)
+            .filter_map(|chunk| chunk.timelines().get(&"cycles".into()))
+            .flat_map(|column| column.times_raw().to_vec())
+            .collect()
+    };
+    let of_all = "/ages/damage_body_1_log10/image";
+    assert_eq!(cycles(of_all), [1000, 2000].into());
+    assert_eq!(contents.updates(&of_all[1..]), 2);
+    assert_eq!(cycles("/maps/film_um/image"), [1000, 2000, 3000].into());
+    assert!(cycles("/ages/damage_body_2_log10/image").is_empty());
 }
 
 #[test]

@@ -34,7 +34,8 @@ pub struct DamageBlock {
     /// Depths below the surface, m, increasing.
     pub depths_m: Arc<[f64]>,
     /// Damage of one crossing by Miner's rule over that of the worst point of the smooth contact; 0 where no
-    /// material point has crossed yet.
+    /// material point has crossed yet. Of all cycles ([`super::Frame::suffered`]): that of them, 1 at a pit; 0 where the
+    /// material is worn off.
     pub damage: Vec<f32>,
     /// Columns that have been crossed.
     pub filled: usize,

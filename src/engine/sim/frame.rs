@@ -100,6 +100,12 @@ pub struct Frame {
     pub damage: [Option<DamageBlock>; 2],
     /// The surfaces at the last loading cycles that a jump has come to; `None` where they stay new.
     pub age: Option<AgePoint>,
+    /// Loading cycles that the heights of this frame are of, those of a jump that is only tried with them; `None` where
+    /// they stay new.
+    pub cycles: Option<f64>,
+    /// Damage that the material of both bodies holds after the cycles of [`Frame::age`], a pit where it is 1 (by a calibration
+    /// point); `None`: it is not followed.
+    pub suffered: [Option<DamageBlock>; 2],
     /// Scalars.
     pub metrics: Metrics,
     /// What [`Frame::cautions`] are drawn from beside them.

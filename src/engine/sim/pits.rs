@@ -38,6 +38,8 @@ pub(super) struct Pits {
     depths: Vec<f64>,
     /// a of a unit of film.
     unit: f64,
+    /// Of the period that the columns divide, a.
+    length: f64,
     /// D at the base of the jump, `[column · depths + k]`.
     damage: Vec<f64>,
     /// d at the base.
@@ -58,7 +60,7 @@ pub(super) struct Pits {
 
 saved! {
     Pits {
-        same: depths, unit;
+        same: depths, unit, length;
         parts: damage, rate, now, worn, pitted, unworn;
         free: worst, greatest;
     }
@@ -74,13 +76,14 @@ pub(super) struct PitCycles {
 }
 
 impl Pits {
-    /// Sound material of so many `columns`; `unit`: a of a unit of film.
-    pub(super) fn new(columns: usize, depths: &[f64], unit: f64) -> Self {
+    /// Sound material of a period of `length` (in a) in so many columns; `unit`: a of a unit of film.
+    pub(super) fn new((length, columns): (f64, usize), depths: &[f64], unit: f64) -> Self {
         let field = || vec![0.0; columns * depths.len()];
         let row = || vec![0.0; columns];
         Self {
             depths: depths.to_vec(),
             unit,
+            length,
             damage: field(),
             rate: field(),
             now: vec![UNKNOWN; columns * depths.len()],
@@ -258,6 +261,26 @@ impl Pits {
         cycles_of(&self.unworn)
     }
 
+    /// Depths ζ, in a.
+    pub(super) fn depths(&self) -> &[f64] {
+        &self.depths
+    }
+
+    /// The period, in a, and its columns.
+    pub(super) fn period(&self) -> (f64, usize) {
+        (self.length, self.pitted.len())
+    }
+
+    /// D of all columns, `[column · depths + k]`; 0 where the material is gone.
+    pub(super) fn suffered_into(&self, out: &mut Vec<f32>) {
+        out.clear();
+        let columns = self.damage.chunks_exact(self.depths.len());
+        for (damage, worn) in columns.zip(&self.worn) {
+            let kept = |(&d, &zeta): (&f64, &f64)| if zeta < *worn { 0.0 } else { d as f32 };
+            out.extend(damage.iter().zip(&self.depths).map(kept));
+        }
+    }
+
     /// Where the damage is greatest: place over the period, ζ in a, and D.
     pub(super) fn worst(&self) -> (f64, f64, f64) {
         let place = (self.worst.0 as f64 + 0.5) / self.pitted.len() as f64;
@@ -297,7 +320,7 @@ mod tests {
     fn sound(d0: f64, l: f64, spacing: f64) -> Pits {
         let last = (10.0 * l / spacing) as u32;
         let depths: Vec<f64> = (0..=last).map(|k| spacing * f64::from(k)).collect();
-        let mut pits = Pits::new(1, &depths, 1.0);
+        let mut pits = Pits::new((1.0, 1), &depths, 1.0);
         pits.now = depths.iter().map(|z| d0 * (-z / l).exp()).collect();
         pits.begin();
         pits

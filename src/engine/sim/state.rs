@@ -147,7 +147,7 @@ fn worn(
     let age = plan.scene.age.map(|age| [age.cycles, age.tolerance]);
     let coefficients = coefficients.map(|k| scaling.h_from_m(k * unit_m));
     let unit = scaling.m_from_h(1.0) / scaling.a_m;
-    let pits = repeats.map(|repeat| Some(Pits::new(ring(grid, repeat).1, depths?, unit)));
+    let pits = repeats.map(|repeat| Some(Pits::new(ring(grid, repeat), depths?, unit)));
     Worn::new(grid, coefficients, repeats, age, pits)
 }
 

@@ -183,6 +183,15 @@ impl Worn {
         self.skins[body].is_some()
     }
 
+    /// Loading cycles that the heights of now are of, those of a jump that is tried with them.
+    pub(super) fn cycles_now(&self) -> Option<f64> {
+        let age = self.age.as_ref()?;
+        Some(match age.stage {
+            AgeStage::Tried => age.from + age.jump,
+            AgeStage::New | AgeStage::Last | AgeStage::Done => age.from,
+        })
+    }
+
     /// Whether all cycles that are asked for are done.
     pub(super) fn is_done(&self) -> bool {
         (self.age.as_ref()).is_none_or(|age| age.stage == AgeStage::Done)

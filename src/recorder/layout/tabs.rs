@@ -155,8 +155,12 @@ fn ageing(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
     let mut plot = |curves: &AgeCurves| {
         views.plot(curves.title, &[curves.entity], &ages::plot(), Margin::Plain)
     };
-    let all: Vec<ContainerLike> = shown.ages.iter().map(|&curves| plot(curves)).collect();
+    let mut all: Vec<ContainerLike> = shown.ages.iter().map(|&curves| plot(curves)).collect();
     let is_empty = all.is_empty();
+    all.extend((1..).zip(shown.suffered).map(|(body, entity)| {
+        let title = format!("Damage that body {body} holds: a pit from 0 on");
+        views.plot(&title, &[*entity], &damage::plot_box(), Margin::Legend)
+    }));
     let grid = Grid::new(all).with_grid_columns(3);
     (!is_empty).then(|| grid.with_name("Ageing").into())
 }

@@ -9,6 +9,7 @@ use crate::plan::LINE_ROWS;
 use crate::scene::ContactKind;
 use crate::sim::scaling::Heading;
 use crate::sim::stress_stage::StressStage;
+use crate::sim::worn::Worn;
 use crate::sim::{DamageBlock, Frame, MaterialPoint, PassedPeak, StressPlane, StressSlice};
 use crate::solve::stress::{Cut, Plane};
 
@@ -32,8 +33,10 @@ pub(super) fn fill(sim: View, frame: &mut Frame) {
             risk.extend(values.iter().map(|value| value * unit));
         }
         fill_damage(sim, body, &mut frame.damage[body.index()]);
+        fill_suffered(sim, body, &mut frame.suffered[body.index()]);
     }
     frame.age = sim.state.ages.last().copied();
+    frame.cycles = sim.state.worn.as_ref().and_then(Worn::cycles_now);
     frame.metrics.clone_from(&sim.state.metrics);
     frame.grounds = grounds(sim.plan, sim.state);
 }
@@ -270,6 +273,31 @@ fn fill_damage(sim: View, body: BodyId, block: &mut Option<DamageBlock>) {
     block.pit_place_m = place_m(sim, pit.place, map.spec().length);
     block.pit_depth_m = block.depths_m.get(pit.depth).copied().unwrap_or(0.0);
     block.pit_damage = pit.damage;
+}
+
+/// What the material of a body has suffered in all its cycles.
+fn fill_suffered(sim: View, body: BodyId, block: &mut Option<DamageBlock>) {
+    let worn = sim.state.worn.as_ref();
+    let Some(pits) = worn.and_then(|worn| worn.known_pits(body.index())) else {
+        *block = None;
+        return;
+    };
+    let block = block.get_or_insert_with(DamageBlock::default);
+    let (length, columns) = pits.period();
+    if block.depths_m.len() != pits.depths().len() {
+        let depths = pits.depths().iter();
+        block.depths_m = depths.map(|&z| sim.plan.scaling.m_from_x(z)).collect();
+    }
+    block.length_m = sim.plan.scaling.m_from_x(length);
+    (block.columns, block.filled) = (columns, columns);
+    pits.suffered_into(&mut block.damage);
+    if sim.plan.scaling.heading == Heading::Backward {
+        mirror_columns(&mut block.damage, pits.depths().len());
+    }
+    let (place, depth, damage) = pits.worst();
+    block.pit_place_m = place_m(sim, place * length, length);
+    block.pit_depth_m = sim.plan.scaling.m_from_x(depth);
+    block.pit_damage = damage;
 }
 
 /// The shown point, its stress interpolated in the slice of its body.
