@@ -79,13 +79,8 @@ impl View for Damage {
         for (body, damage) in frame.suffered.iter().enumerate() {
             if let Some(damage) = damage {
                 let block = &mut self.suffered[body];
-                log_block(
-                    stream,
-                    block,
-                    (SUFFERED[body], Mapped::AllCycles),
-                    damage,
-                    frame.a_m,
-                );
+                let of = (SUFFERED[body], Mapped::AllCycles);
+                log_block(stream, block, of, damage, frame.a_m);
             }
         }
         stream.set_time(now);
@@ -98,13 +93,8 @@ impl View for Damage {
                 continue;
             };
             let block = &mut self.blocks[body];
-            log_block(
-                stream,
-                block,
-                (DAMAGE[body], Mapped::Crossing),
-                damage,
-                frame.a_m,
-            );
+            let of = (DAMAGE[body], Mapped::Crossing);
+            log_block(stream, block, of, damage, frame.a_m);
         }
     }
 }
