@@ -175,7 +175,7 @@ fn show_of(sweep: &Sweep, shown: SweepShown) -> Result<(), Failure> {
             Some(scene) => Ok(print(&scene.to_toml())?),
             None => Err(Failure::input(miette::miette!(
                 help = "asperity sweep fzg_c --show ride prints one",
-                "only a [gear] path has times to ride along"
+                "only a [gear] path of one torque and speed has times to ride along"
             ))),
         },
     }
@@ -204,6 +204,9 @@ fn finish(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<u8, Failure> {
     folder.write(&root.join("seconds.csv"), rows.seconds_csv().as_bytes())?;
     if let Some(seeds) = rows.seeds_csv(sweep) {
         folder.write(&root.join("seeds.csv"), seeds.as_bytes())?;
+    }
+    if let Some(flank) = rows.flank_csv(sweep) {
+        folder.write(&root.join("flank.csv"), flank.as_bytes())?;
     }
     if !sweep.path.is_empty() {
         folder.write(&root.join("path.csv"), points_csv(sweep)?.as_bytes())?;
@@ -234,6 +237,7 @@ fn told(sweep: &Sweep, rows: &Rows, table: &Path, pictures: &[String]) -> String
             let _ = writeln!(text, "relative life from {low:.3e} to {high:.3e}");
         }
     }
+    let _ = write!(text, "{}", flank_line(sweep, rows));
     for line in rows.seeds_lines(sweep) {
         let _ = writeln!(text, "{line}");
     }
@@ -254,6 +258,26 @@ fn told(sweep: &Sweep, rows: &Rows, table: &Path, pictures: &[String]) -> String
         );
     }
     text
+}
+
+/// The place of a tooth that lives shortest.
+fn flank_line(sweep: &Sweep, rows: &Rows) -> String {
+    let places = rows.flank(sweep);
+    let known = places
+        .iter()
+        .filter_map(|place| Some((place, place.weaker()?)));
+    let Some((place, (flank, turns))) = known.min_by(|a, b| a.1.1.total_cmp(&b.1.1)) else {
+        return String::new();
+    };
+    let hours = place
+        .hours
+        .map_or_else(String::new, |hours| format!(", {hours:.3e} hours"));
+    format!(
+        "shortest life of the tooth: {} {:.2} mm from A, {turns:.3e} turns of the pinion over the loading cycles of the \
+         base scene's smooth contact{hours}\n",
+        ["pinion", "wheel"][flank],
+        1e3 * place.path_m
+    )
 }
 
 /// What the chains save.

@@ -346,6 +346,12 @@ impl HeightMap {
         }
     }
 
+    /// Mean of |z| over the greatest |z|.
+    pub fn mean_height(&self) -> f64 {
+        let sum: f64 = self.shape.iter().map(|&s| f64::from(s).abs()).sum();
+        sum / self.shape.len() as f64
+    }
+
     /// Skewness and kurtosis of the heights, ⟨z³⟩/Sq³ and ⟨z⁴⟩/Sq⁴ (ISO 25178-2: Ssk, Sku).
     pub fn moments(&self) -> [f64; 2] {
         [3, 4].map(|power| {

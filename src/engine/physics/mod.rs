@@ -11,6 +11,7 @@ pub mod film_regression;
 pub mod film_ripple;
 pub mod fluid;
 pub mod gear;
+pub mod gear_film;
 pub mod gear_tooth;
 pub mod groups;
 pub mod heat_estimate;

@@ -1,6 +1,6 @@
 //! What follows from a scene by closed forms: moduli, Hertz contact, speeds, roughness.
 
-use std::f64::consts::SQRT_2;
+use std::f64::consts::{PI, SQRT_2};
 use std::sync::Arc;
 
 use super::model::{ContactKind, MapEdge, Scene, Surface, SurfaceKind};
@@ -247,6 +247,27 @@ impl Surface {
             Self::Random(ref random) => random.rq_m,
             Self::HeightMap { ref map, .. } => {
                 self.amplitude_m() * map.as_ref().map_or(0.0, |map| map.rms)
+            }
+        }
+    }
+
+    /// Mean of |z|: 2A/π for ridges, 4A/π² for the product of two waves, m; of maps and made surfaces by their heights.
+    pub fn ra_m(&self) -> f64 {
+        match self {
+            Self::Smooth {} => 0.0,
+            Self::Sinusoid {
+                amplitude_m,
+                wavelength_x_m,
+                wavelength_y_m,
+                ..
+            } => {
+                let waves = [wavelength_x_m, wavelength_y_m];
+                let waves = waves.into_iter().filter(|wave| wave.is_finite()).count();
+                (2.0 / PI).powi(waves.max(1) as i32) * amplitude_m.abs()
+            }
+            Self::Random(_) | Self::HeightMap { .. } => {
+                let share = self.relief().map_or(0.0, |(map, _)| map.mean_height());
+                self.amplitude_m().abs() * share
             }
         }
     }

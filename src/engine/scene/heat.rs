@@ -47,6 +47,12 @@ impl Scene {
 }
 
 impl Scene {
+    /// Viscosity of oil that is warmer than the bulk by `rise_k` over the bulk's; `None`: dry, or nobody says how it thins.
+    pub fn thinner(&self, rise_k: f64) -> Option<f64> {
+        let (heat, oil) = self.heat.zip(self.lubricant.as_ref())?;
+        Some(heat.thinning(oil)?.at_rest(rise_k).exp())
+    }
+
     /// Blok's flash temperature for a coefficient of friction and a Hertz contact at the scene's speed and `slide_roll`, K.
     pub fn flash_by_blok_k(
         &self,

@@ -43,6 +43,8 @@ pub(super) struct SimPlan {
     pub(super) cuts: Vec<Cut>,
     /// Root-mean-square height over amplitude of both bodies.
     pub(super) rms_shares: [f64; 2],
+    /// Mean height over amplitude of both bodies.
+    pub(super) mean_shares: [f64; 2],
     /// Hardness of the softer body over p_h; infinite: both are elastic.
     pub(super) hardness: f64,
     /// Whether a finer mesh is to go on from this run: it keeps what that needs.
@@ -67,7 +69,8 @@ impl SimPlan {
             grounds: grounds_of(scene, &decided),
             stepping: stepping_of(scene),
             cuts: cuts(scene),
-            rms_shares: scene.surfaces().map(rms_share),
+            rms_shares: scene.surfaces().map(|surface| unit(surface).rq_m()),
+            mean_shares: scene.surfaces().map(|surface| unit(surface).ra_m()),
             hardness: hardness.map_or(f64::INFINITY, |pa| scaling.p_from_pa(pa)),
             hands_on: false,
             decided,
@@ -284,11 +287,11 @@ fn grounds_of(scene: &Scene, decided: &Plan) -> Grounds {
 }
 
 /// Root-mean-square height over amplitude; 0 for a surface without height.
-fn rms_share(surface: &Surface) -> f64 {
-    // Of one that a hand may still turn up, too.
+/// A surface of amplitude 1, also where a hand may still turn it up.
+fn unit(surface: &Surface) -> Surface {
     let mut unit = surface.clone();
     unit.set_amplitude_m(1.0);
-    unit.rq_m()
+    unit
 }
 
 fn traction_law(scene: &Scene, scaling: &Scaling) -> TractionLaw {

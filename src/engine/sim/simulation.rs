@@ -245,6 +245,13 @@ impl Simulation {
         summary::life_smooth(self.view())
     }
 
+    /// Loading cycles of the smooth contact at the load and speed of now, by the scene's calibration point; `None` as
+    /// [`Simulation::life_smooth`], or there is no such point.
+    pub fn smooth_cycles(&self) -> Option<f64> {
+        let size = self.plan.size_now(&self.state.drive);
+        self.state.life.as_ref()?.smooth_cycles(size)
+    }
+
     /// Shows another material point; nothing that is computed changes.
     pub fn show_point(&mut self, follow: Follow) {
         let Some(counting) = &mut self.state.counting else {

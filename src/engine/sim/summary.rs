@@ -256,6 +256,13 @@ pub struct Summary {
     /// how the viscosity falls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inlet_heating_factor: Option<f64>,
+    /// Film of a gear's flank after ISO/TS 6336-22, m, with the viscosity at Blok's flash temperature where the scene says how the
+    /// oil thins; `None`: dry, or no line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub h_gf_m: Option<f64>,
+    /// λ_GF: it over the mean of both Ra as the scene has them; `None`: smooth, too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lambda_gf: Option<f64>,
     /// Loading cycles that the surfaces have behind them; 1, that of the passages, where no ageing is asked for; `None`: nothing
     /// wears.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -9,7 +9,7 @@
 //! FOLDER/cases/0000012.json      asperity case 1 <FNV-1a of the rest> \n { ... }
 //! FOLDER/chains/0000003-0000012.state      where chain 3 goes on after case 12; gone when it is done
 //! FOLDER/chains/0000003.claim    locked by the process that works on chain 3; gone when it is done
-//! FOLDER/table.csv, seconds.csv, seeds.csv, *.svg, *.png   when all cases are there
+//! FOLDER/table.csv, seconds.csv, seeds.csv, flank.csv, *.svg, *.png   when all cases are there
 //! ```
 //! A folder that is not empty and has no mark is somebody else's: nothing in it is touched. In a marked one nothing
 //! is touched but files of these names. A file is written under another name, brought to the disk and renamed, so

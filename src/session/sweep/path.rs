@@ -16,6 +16,10 @@
 //! speed_rpm = 1500.0                  # of the pinion
 //! load_sharing = "half"               # "half", "trapezoid" (1/3 to 2/3) or "whole"
 //! points = 17                         # evenly from A to E; B, C and D beside
+//! spectrum = [                        # in place of torque_n_m and speed_rpm: what the pair carries, and for which part of
+//!     { torque_n_m = 200.0, speed_rpm = 1500.0, time_share = 0.8 },     # its time; each step goes along the tooth
+//!     { torque_n_m = 350.0, speed_rpm = 1000.0, time_share = 0.2 },
+//! ]
 //! ```
 //! A `[cam]` goes along the flank, or along `angles_deg = [from, to]` of it, from the nose. Round the nose both
 //! surfaces move against each other, |S| > 2: a scene's S ends at ±2 (one surface stands), so such angles are
@@ -26,7 +30,7 @@ use std::f64::consts::PI;
 use toml::{Table, Value};
 
 use super::axis::VariedKey;
-use super::reader::{TableReader, both};
+use super::reader::{TableReader, both, shown};
 use asperity_engine::physics::gear::{GearPair, GearTeeth, LoadSharing};
 use asperity_engine::physics::race_and_cam::{BallRace, FlatFollower};
 use asperity_engine::scene::{ContactKind, Scene, SceneError, Tooth};
@@ -106,9 +110,13 @@ pub(super) fn read(kind: PathKind, table: &Table, scene: &Scene) -> Result<Path,
     let stops = match kind {
         PathKind::Gear => {
             let n = keys.whole("points", POINTS, 17);
-            let pair = gear_pair(&mut keys)?;
+            let (pair, spectrum) = gear_pair(&mut keys)?;
             tooth = Some(Tooth::of(&pair.gears, pair.speed_rad_s));
-            gear(&pair, n)?
+            let mut stops = Vec::new();
+            for step in &spectrum {
+                stops.extend(gear(&step.load(pair), n, step)?);
+            }
+            stops
         }
         PathKind::Race => race(&mut keys)?,
         PathKind::Cam => cam(&mut keys)?,
@@ -138,7 +146,86 @@ const LOAD_SHARING: [(&str, LoadSharing); 3] = [
     ("whole", LoadSharing::Whole),
 ];
 
-fn gear(pair: &GearPair, n: usize) -> Result<Vec<PathStop>, SceneError> {
+/// Most steps of a spectrum.
+const MOST_STEPS: usize = 100;
+
+/// A step of what a pair of gears carries.
+struct SpectrumStep {
+    torque_n_m: f64,
+    speed_rpm: f64,
+    /// Part of the time; `None`: it is all there is.
+    time_share: Option<f64>,
+}
+
+impl SpectrumStep {
+    const KEYS: &'static str = "tables of torque_n_m, speed_rpm and time_share";
+
+    fn read(value: &Value, at: usize) -> Result<Self, SceneError> {
+        let path = format!("gear.spectrum.{at}");
+        let Some(table) = value.as_table() else {
+            return Err(SceneError::value(path, shown(value), Self::KEYS));
+        };
+        let mut keys = TableReader::new(path, table);
+        let share = keys.number("time_share", 1e-9..=1.0, "of the time");
+        let mut step = Self::of(&mut keys);
+        keys.finish()?;
+        step.time_share = Some(share);
+        Ok(step)
+    }
+
+    fn of(keys: &mut TableReader) -> Self {
+        Self {
+            torque_n_m: keys.number("torque_n_m", 1e-3..=1e7, "N m"),
+            speed_rpm: keys.number("speed_rpm", 0.01..=1e6, "1/min"),
+            time_share: None,
+        }
+    }
+
+    /// The pair under this load.
+    fn load(&self, pair: GearPair) -> GearPair {
+        GearPair {
+            torque_n_m: self.torque_n_m,
+            speed_rad_s: RPM * self.speed_rpm,
+            ..pair
+        }
+    }
+
+    /// What it says of a point of the path.
+    fn values(&self) -> Vec<(&'static str, f64)> {
+        self.time_share.map_or_else(Vec::new, |share| {
+            vec![
+                ("torque_n_m", self.torque_n_m),
+                ("speed_rpm", self.speed_rpm),
+                ("time_share", share),
+            ]
+        })
+    }
+}
+
+/// The steps of `[gear]`: those of its spectrum, or the one of its torque and speed.
+fn spectrum(keys: &mut TableReader) -> Result<Vec<SpectrumStep>, SceneError> {
+    let Some(list) = keys.optional("spectrum", SpectrumStep::KEYS, Value::as_array) else {
+        return Ok(vec![SpectrumStep::of(keys)]);
+    };
+    if !(1..=MOST_STEPS).contains(&list.len()) {
+        let allowed = format!("1 to {MOST_STEPS} {}", SpectrumStep::KEYS);
+        return Err(SceneError::value(
+            "gear.spectrum",
+            format!("a list of {}", list.len()),
+            allowed,
+        ));
+    }
+    let steps = (list.iter().enumerate()).map(|(k, value)| SpectrumStep::read(value, k));
+    let steps = steps.collect::<Result<Vec<_>, _>>()?;
+    let whole: f64 = steps.iter().filter_map(|step| step.time_share).sum();
+    if (whole - 1.0).abs() > 1e-6 {
+        let allowed = "shares of the time that make 1 together";
+        return Err(SceneError::value("gear.spectrum", whole, allowed));
+    }
+    Ok(steps)
+}
+
+fn gear(pair: &GearPair, n: usize, step: &SpectrumStep) -> Result<Vec<PathStop>, SceneError> {
     let Some(line) = pair.gears.line_of_action() else {
         return Err(SceneError::value(
             "gear.tip_diameters_m",
@@ -158,19 +245,22 @@ fn gear(pair: &GearPair, n: usize) -> Result<Vec<PathStop>, SceneError> {
             let mesh = pair.at(&line, place);
             // S of the pitch point is 0, not what rounding leaves of it.
             let s = mesh.slide_roll();
+            let way = place - line.a;
+            let mut values = vec![
+                ("path_m", way),
+                ("rho_1_m", mesh.radii_m[0]),
+                ("rho_2_m", mesh.radii_m[1]),
+                ("u_1_m_s", mesh.speeds_m_s[0]),
+                ("u_2_m_s", mesh.speeds_m_s[1]),
+                ("load_share", mesh.share),
+                (
+                    "time_s",
+                    way / (pair.gears.base_radii_m()[0] * pair.speed_rad_s),
+                ),
+            ];
+            values.extend(step.values());
             PathStop {
-                values: vec![
-                    ("path_m", place - line.a),
-                    ("rho_1_m", mesh.radii_m[0]),
-                    ("rho_2_m", mesh.radii_m[1]),
-                    ("u_1_m_s", mesh.speeds_m_s[0]),
-                    ("u_2_m_s", mesh.speeds_m_s[1]),
-                    ("load_share", mesh.share),
-                    (
-                        "time_s",
-                        (place - line.a) / (pair.gears.base_radii_m()[0] * pair.speed_rad_s),
-                    ),
-                ],
+                values,
                 keys: vec![
                     ("contact.rx_m", mesh.radius_m()),
                     ("load.force_n_per_m", mesh.load_n_per_m),
@@ -182,7 +272,8 @@ fn gear(pair: &GearPair, n: usize) -> Result<Vec<PathStop>, SceneError> {
         .collect())
 }
 
-fn gear_pair(keys: &mut TableReader) -> Result<GearPair, SceneError> {
+/// The pair under the first step of what it carries, and all steps.
+fn gear_pair(keys: &mut TableReader) -> Result<(GearPair, Vec<SpectrumStep>), SceneError> {
     let range = 5.0..=1000.0;
     let allowed = "two whole numbers, 5 to 1000, pinion first";
     let teeth = keys.required("teeth", allowed, |value| {
@@ -197,8 +288,7 @@ fn gear_pair(keys: &mut TableReader) -> Result<GearPair, SceneError> {
     let load_sharing = keys.choice("load_sharing", &LOAD_SHARING);
     let angle = keys.optional_number("pressure_angle_deg", 10.0..=35.0, "degrees");
     let face_width_m = keys.number("face_width_m", 1e-4..=10.0, "m");
-    let torque_n_m = keys.number("torque_n_m", 1e-3..=1e7, "N m");
-    let speed_rad_s = RPM * keys.number("speed_rpm", 0.01..=1e6, "1/min");
+    let steps = spectrum(keys)?;
     keys.finish()?;
     let module_m = match (module_m, radii) {
         (Some(module_m), None) => module_m,
@@ -224,7 +314,7 @@ fn gear_pair(keys: &mut TableReader) -> Result<GearPair, SceneError> {
         }
     };
     let standard = teeth.map(|z| module_m * f64::from(z));
-    Ok(GearPair {
+    let pair = GearPair {
         gears: GearTeeth {
             teeth,
             module_m,
@@ -233,10 +323,11 @@ fn gear_pair(keys: &mut TableReader) -> Result<GearPair, SceneError> {
             tip_diameters_m: tips.unwrap_or(standard.map(|d| d + 2.0 * module_m)),
         },
         face_width_m,
-        torque_n_m,
-        speed_rad_s,
+        torque_n_m: 0.0,
+        speed_rad_s: 0.0,
         load_sharing,
-    })
+    };
+    Ok((steps[0].load(pair), steps))
 }
 
 fn race(keys: &mut TableReader) -> Result<Vec<PathStop>, SceneError> {

@@ -191,6 +191,14 @@ struct Line {
 }
 
 fn lines(sweep: &Sweep) -> Vec<Line> {
+    let loads = sweep.loads();
+    if loads.len() > 1 {
+        let line = |cases: std::ops::Range<usize>| Line {
+            name: sweep.load_words(cases.start),
+            cases,
+        };
+        return loads.into_iter().take(MOST_CURVES).map(line).collect();
+    }
     let width = match (sweep.combine, sweep.axes.last()) {
         (Combine::Grid, Some(axis)) => axis.values.len(),
         (Combine::List, _) | (Combine::Grid, None) => sweep.len(),

@@ -19,12 +19,14 @@ use asperity_engine::scene::{Event, Record, Scene};
 const PICTURES: f64 = 300.0;
 
 impl Sweep {
-    /// The ride along a `[gear]` path; `None` for other sweeps.
+    /// The ride along a `[gear]` path; `None` for other sweeps, and for a spectrum.
     ///
     /// # Errors
     /// [`SweepError::Case`] when a point of the path is no scene.
     pub fn ride(&self) -> Result<Option<Scene>, SweepError> {
-        let Some(times) = path::column(&self.path, "time_s") else {
+        // Of a spectrum each step would be a ride.
+        let times = path::column(&self.path, "time_s").filter(|_| self.loads().len() == 1);
+        let Some(times) = times else {
             return Ok(None);
         };
         let scenes = (0..self.len())

@@ -79,6 +79,7 @@ const COLUMNS: [&[(&str, InRecord)]; 7] = [
 
 /// Last columns, each there where a case has its number: scenes that ask for no wear and no heat have none of them.
 const ASKED: &[(&str, InRecord)] = optional! {
+    a_iso h_gf_m lambda_gf
     cycles wear_depth_1_m wear_depth_2_m pitted_area_1 pitted_area_2
     flash_temperature_max_k flash_temperature_mean_k contact_temperature_max_k
     film_temperature_max_k heat_share_1
@@ -146,12 +147,7 @@ impl Rows {
             });
         }
         let mut records: Vec<CaseRecord> = records.into_iter().flatten().collect();
-        let base = sweep.smooth_life(&records);
-        for CaseRecord { summary, .. } in &mut records {
-            summary.load_factor = summary.life_smooth.zip(base).map(|(own, base)| own / base);
-            let lives = summary.life_relative.zip(summary.load_factor);
-            summary.life_common = lives.map(|(life, load)| life * load);
-        }
+        sweep.to_common(&mut records);
         Ok(Self { records })
     }
 

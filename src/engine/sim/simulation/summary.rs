@@ -6,7 +6,10 @@ use super::present::grounds;
 use super::view::View;
 use super::watching::life_estimate;
 use crate::physics::cycles::BodyId;
+use crate::physics::gear_film::gear_film_m;
 use crate::physics::iso281::{a_iso_radial_ball, kappa_from_lambda};
+use crate::physics::line::LinePoint;
+use crate::scene::Knob;
 use crate::sim::caution;
 use crate::sim::fatigue_stage::LifeStage;
 use crate::sim::heat_stage::{self, Warmth};
@@ -54,7 +57,32 @@ pub(super) fn summary(sim: View, stats: &Stats) -> Summary {
         ages: sim.state.ages.clone(),
         ..life
     };
-    with_heat(sim, sim.state.totals.summary(m, known))
+    let summary = with_heat(sim, sim.state.totals.summary(m, known));
+    with_gear_film(sim, summary)
+}
+
+/// With the film of a gear's flank by its standard's formula, at the load, speed and amplitudes of now.
+fn with_gear_film(sim: View, summary: Summary) -> Summary {
+    let (scene, drive) = (&sim.plan.scene, &sim.state.drive);
+    let Some(line) = scene.line_point() else {
+        return summary;
+    };
+    let line = LinePoint {
+        load_n_per_m: drive.get(Knob::ForceNPerM).now,
+        entrainment_m_s: drive.get(Knob::EntrainmentMS).now.abs(),
+        ..line
+    };
+    let flash = summary.flash_temperature_blok_k;
+    let thinner = flash.and_then(|flash| scene.thinner(flash)).unwrap_or(1.0);
+    let film = gear_film_m(&line, thinner);
+    let amplitudes = Knob::AMPLITUDES.map(|knob| drive.get(knob).now.abs());
+    let ra = [0, 1].map(|body| amplitudes[body] * sim.plan.mean_shares[body]);
+    let ra = 0.5 * (ra[0] + ra[1]);
+    Summary {
+        h_gf_m: Some(film),
+        lambda_gf: (ra > 0.0).then(|| film / ra),
+        ..summary
+    }
 }
 
 /// With what is known of temperatures.

@@ -18,7 +18,7 @@ const LOCK: &str = "sweep.lock";
 pub(super) const TEMPORARY: &str = "temporary-";
 
 /// Files with one name each.
-const NAMES: [&str; 8] = [
+const NAMES: [&str; 10] = [
     "sweep.toml",
     "base.toml",
     MARK,
@@ -26,6 +26,8 @@ const NAMES: [&str; 8] = [
     "table.csv",
     "seconds.csv",
     "seeds.csv",
+    "flank.csv",
+    "report.html",
     "path.csv",
 ];
 
