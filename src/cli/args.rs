@@ -152,12 +152,36 @@ Pictures: pressure, film, interferogram, traction, roughness_1, roughness_2, eff
 profile, damage_1, damage_2. Numbers are in SI; fields have the half precision (0.05 %) of the recording, scalars all
 their digits. For Python: assets/asperity.py reads a recording into numpy.")]
     Export(ExportArgs),
+    /// One page for a browser and a printer: what runs, life and why, tables with their formulas and sources
+    #[command(after_long_help = "\
+Examples:
+  asperity sweep fzg_c                       a gear along its line of action, into ./fzg_c.sweep/
+  asperity report fzg_c.sweep                ./fzg_c.sweep/report.html: radii, speeds, film, lambda_GF, life, cautions
+  asperity run --out passage.rrd
+  asperity report passage.rrd                ./passage.html
+
+Every number is one of the sweep's table.csv, flank.csv or seeds.csv. Print it to PDF from the browser (A4).")]
+    Report(ReportArgs),
     /// Open a recording in the Rerun viewer, or say how to get the viewer
     View {
         /// Recording, as written by run and explore
         #[arg(value_name = "FILE.rrd")]
         file: PathBuf,
     },
+}
+
+/// What to report on.
+#[derive(Debug, Args)]
+pub(crate) struct ReportArgs {
+    /// Folder of a sweep, or a recording
+    #[arg(value_name = "FOLDER|FILE.rrd")]
+    pub(crate) of: PathBuf,
+    /// Page to write [default: report.html in the sweep's folder, or beside the recording]
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace the file if it exists
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 /// Which sweep, and how to run it.

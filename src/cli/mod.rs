@@ -12,6 +12,7 @@ mod failure;
 mod live;
 mod names;
 mod outputs;
+mod page;
 mod repeat;
 mod report;
 mod run;
@@ -71,6 +72,7 @@ fn dispatch(command: CliCommand, engine: Engine) -> Result<u8, Failure> {
         CliCommand::Compare(_) | CliCommand::Export(_) => {
             Err(Failure::without_recorder("reads no recordings"))
         }
+        CliCommand::Report(args) => page::report(&args),
         CliCommand::View { file } => view::view(&file),
     }
 }

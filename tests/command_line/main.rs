@@ -6,6 +6,7 @@ mod cli;
 mod common;
 mod common_life;
 mod outputs;
+mod report;
 mod surface;
 mod sweep;
 mod sweep_shared;

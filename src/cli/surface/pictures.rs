@@ -4,7 +4,7 @@ use std::path::Path;
 
 use asperity_engine::math::spectrum::mean_power;
 use asperity_engine::observe::ObserveError;
-use asperity_picture::chart::{Chart, Corner, Curve, Figure, HeatMap, Mark, Scale};
+use asperity_picture::chart::{Chart, Curve, Figure, HeatMap, Mark, Scale};
 
 /// Most cells of a map along a side: what a picture of 900 pixels shows.
 const MOST_CELLS: usize = 300;
@@ -88,6 +88,5 @@ fn spectrum(nx: usize, heights_m: &[f64], pixel_m: f64) -> Figure {
             mark: Mark::Computed,
         }],
         levels: Vec::new(),
-        legend: Corner::UpperRight,
     }
 }

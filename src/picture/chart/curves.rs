@@ -39,17 +39,6 @@ pub struct Curve {
     pub mark: Mark,
 }
 
-/// Where the legend stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Corner {
-    /// Curves that fall leave it free.
-    UpperRight,
-    /// Curves that rise leave it free.
-    UpperLeft,
-    /// Curves that start high leave it free.
-    LowerLeft,
-}
-
 /// A figure of curves.
 #[derive(Debug, Clone)]
 pub struct Figure {
@@ -63,8 +52,6 @@ pub struct Figure {
     pub curves: Vec<Curve>,
     /// Values of y with a line all along.
     pub levels: Vec<f64>,
-    /// Where the legend stands, if there is more than one curve.
-    pub legend: Corner,
 }
 
 /// Minimum and maximum with a margin; a single value gets room on both sides.
@@ -81,6 +68,22 @@ fn span(places: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     (low <= high).then_some([low - room, high + room])
 }
 
+/// How much of a line lies in an area, in sixteenths of its pieces.
+fn within(line: &[[f64; 2]], area: &Rect) -> usize {
+    const PARTS: i32 = 16;
+    let is_in = |[x, y]: [f64; 2]| {
+        (area.left..=area.left + area.wide).contains(&x)
+            && (area.top..=area.top + area.high).contains(&y)
+    };
+    let pieces = line.windows(2).flat_map(|ends| {
+        let along = |part: i32| f64::from(part) / f64::from(PARTS);
+        let between =
+            move |axis: usize, t: f64| ends[0][axis] + t * (ends[1][axis] - ends[0][axis]);
+        (0..=PARTS).map(move |part| [0, 1].map(|axis| between(axis, along(part))))
+    });
+    pieces.filter(|at| is_in(*at)).count()
+}
+
 impl Figure {
     /// Where the points of a curve lie; what has no place is left out.
     fn places(&self, curve: &Curve) -> Vec<[f64; 2]> {
@@ -88,31 +91,28 @@ impl Figure {
         curve.points.iter().filter_map(place).collect()
     }
 
-    /// Names of the curves in a corner of the plot.
-    fn draw_legend(&self, drawing: &mut Drawing, plot: Rect) {
+    /// Names of the curves in the corner of the plot where they hide least of what `drawn` has, the upper right one first.
+    fn draw_legend(&self, drawing: &mut Drawing, plot: Rect, drawn: &[Vec<[f64; 2]>]) {
         let em = drawing.font();
         let names = self.curves.iter().map(|curve| text_width(&curve.name));
-        let area_wide = (names.fold(0.0, f64::max) + 3.2) * em;
-        let area_high = (1.4 * self.curves.len() as f64 + 0.6) * em;
+        let [wide, high] = [
+            (names.fold(0.0, f64::max) + 3.2) * em,
+            (1.4 * self.curves.len() as f64 + 0.6) * em,
+        ];
         let far = 0.5 * em;
-        let (at_left, at_top) = match self.legend {
-            Corner::UpperRight => (false, true),
-            Corner::UpperLeft => (true, true),
-            Corner::LowerLeft => (true, false),
-        };
-        let area = Rect {
-            left: if at_left {
-                plot.left + far
-            } else {
-                plot.right() - area_wide - far
-            },
-            top: if at_top {
-                plot.top + far
-            } else {
-                plot.bottom() - area_high - far
-            },
-            wide: area_wide,
-            high: area_high,
+        let lefts = [plot.right() - wide - far, plot.left + far];
+        let tops = [plot.top + far, plot.bottom() - high - far];
+        let corners = tops.into_iter().flat_map(|top| {
+            lefts.map(|left| Rect {
+                left,
+                top,
+                wide,
+                high,
+            })
+        });
+        let hidden = |area: &Rect| drawn.iter().map(|line| within(line, area)).sum::<usize>();
+        let Some(area) = corners.min_by_key(hidden) else {
+            return;
         };
         drawing.fill_rect(area, [255; 3]);
         for (k, curve) in self.curves.iter().enumerate() {
@@ -142,23 +142,24 @@ impl Layout for Figure {
             let at = y.share(level);
             drawing.line(vec![plot.at(0.0, at), plot.at(1.0, at)], LEVEL, 1.0);
         }
-        for (k, (curve, points)) in self.curves.iter().zip(curves).enumerate() {
-            let points = points.iter();
-            let points: Vec<[f64; 2]> = points
-                .map(|at| plot.at(x.share(at[0]), y.share(at[1])))
-                .collect();
+        let on_paper = |at: &[f64; 2]| plot.at(x.share(at[0]), y.share(at[1]));
+        let drawn = curves
+            .iter()
+            .map(|points| points.iter().map(on_paper).collect());
+        let drawn: Vec<Vec<[f64; 2]>> = drawn.collect();
+        for (k, (curve, points)) in self.curves.iter().zip(&drawn).enumerate() {
             if curve.mark == Mark::Computed {
-                for at in &points {
+                for at in points {
                     drawing.dot(*at, 4.0, curve.colour(k));
                 }
             }
-            drawing.line(points, curve.colour(k), curve.width());
+            drawing.line(points.clone(), curve.colour(k), curve.width());
         }
         drawing.frame(plot);
         drawing.axis(plot, Side::Below, &x);
         drawing.axis(plot, Side::Left, &y);
         if self.curves.len() > 1 {
-            self.draw_legend(&mut drawing, plot);
+            self.draw_legend(&mut drawing, plot, &drawn);
         }
         Some(drawing)
     }
@@ -197,7 +198,6 @@ mod tests {
                 mark: Mark::Computed,
             }],
             levels: vec![0.1],
-            legend: Corner::UpperRight,
         }
     }
 

@@ -10,7 +10,7 @@ use std::path::Path;
 use crate::draw::{Axis, Drawing, INK, Rect, SizeUnit, Text};
 
 pub use cells::HeatMap;
-pub use curves::{Corner, Curve, Figure, Mark};
+pub use curves::{Curve, Figure, Mark};
 pub use scale::Scale;
 
 /// Pixels of a chart.

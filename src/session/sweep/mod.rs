@@ -46,7 +46,7 @@ pub use folder::{Claimed, Existing, Folder};
 pub use over_seeds::Scatter;
 pub use path::PathPoint;
 #[cfg(not(target_arch = "wasm32"))]
-pub use plots::draw;
+pub use plots::{draw, pictures};
 pub use points::{points, points_csv};
 pub use presets::{SweepPreset, all as presets, names as preset_names};
 pub use run::{Progress, Report, run};

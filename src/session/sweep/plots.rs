@@ -18,7 +18,7 @@ use super::reader::shown;
 use super::spec::{Combine, Sweep};
 use super::table::Rows;
 use asperity_engine::scene::Knob;
-use asperity_picture::chart::{Chart, Corner, Curve, Figure, HeatMap, Mark, Scale};
+use asperity_picture::chart::{Chart, Curve, Figure, HeatMap, Mark, Scale};
 
 /// Most curves of one picture.
 const MOST_CURVES: usize = 8;
@@ -29,31 +29,40 @@ const MOST_CURVES: usize = 8;
 /// [`SweepError::Folder`] when the disk or the drawing library says no.
 pub fn draw(sweep: &Sweep, rows: &Rows, folder: &Folder) -> Result<Vec<String>, SweepError> {
     let mut names = Vec::new();
-    for (name, figure) in figures(sweep, rows) {
-        keep(folder, &name, &figure, &mut names)?;
-    }
-    if let Some(map) = life_map(sweep, rows) {
-        keep(folder, "life_map", &map, &mut names)?;
+    for (name, chart) in charts(sweep, rows) {
+        let path = folder.root().join(format!("{name}.svg"));
+        let svg = chart.svg();
+        let Some(text) = svg.map_err(|reason| SweepError::folder(&path, reason))? else {
+            continue;
+        };
+        folder.write(&path, text.as_bytes())?;
+        folder.write_by(&path.with_extension("png"), |path| chart.png(path))?;
+        names.push(format!("{} and .png", path.display()));
     }
     Ok(names)
 }
 
-/// Writes a chart as SVG and as PNG, if there is something in it.
-fn keep(
-    folder: &Folder,
-    name: &str,
-    chart: &impl Chart,
-    names: &mut Vec<String>,
-) -> Result<(), SweepError> {
-    let path = folder.root().join(format!("{name}.svg"));
-    let svg = chart.svg();
-    let Some(text) = svg.map_err(|reason| SweepError::folder(&path, reason))? else {
-        return Ok(());
+/// The same pictures as SVG, each with its name.
+///
+/// # Errors
+/// [`SweepError::Folder`] when the drawing library says no.
+pub fn pictures(sweep: &Sweep, rows: &Rows) -> Result<Vec<(String, String)>, SweepError> {
+    let svg = |(name, chart): (String, Box<dyn Chart>)| {
+        let svg = chart
+            .svg()
+            .map_err(|reason| SweepError::folder(name.as_ref(), reason));
+        Some(svg.transpose()?.map(|svg| (name, svg)))
     };
-    folder.write(&path, text.as_bytes())?;
-    folder.write_by(&path.with_extension("png"), |path| chart.png(path))?;
-    names.push(format!("{} and .png", path.display()));
-    Ok(())
+    charts(sweep, rows).into_iter().filter_map(svg).collect()
+}
+
+fn charts(sweep: &Sweep, rows: &Rows) -> Vec<(String, Box<dyn Chart>)> {
+    let boxed = |(name, figure)| (name, Box::new(figure) as Box<dyn Chart>);
+    let mut all: Vec<_> = figures(sweep, rows).into_iter().map(boxed).collect();
+    if let Some(map) = life_map(sweep, rows) {
+        all.push(("life_map".to_owned(), Box::new(map)));
+    }
+    all
 }
 
 /// The axis along which curves run: column, label, scale.
@@ -156,11 +165,11 @@ const PLOTS: [Plot; 7] = [
     Plot { name: "lambda", label: "lambda", scale: Scale::Linear, curves: &[computed("", "lambda_ratio")] },
 ];
 
-/// Pictures against λ, and where their legends stand: friction falls and life rises with the film.
+/// Pictures against λ.
 #[rustfmt::skip]
-const AGAINST_LAMBDA: [(Plot, Corner); 2] = [
-    (Plot { name: "stribeck", label: "friction coefficient", scale: Scale::Linear, curves: &[computed("", "friction_coefficient")] }, Corner::UpperRight),
-    (Plot { name: "life_against_lambda", label: OWN_LIFE, scale: Scale::Log, curves: &[computed("by damage", "life_damage"), computed("the paper's count", "life_global")] }, Corner::UpperLeft),
+const AGAINST_LAMBDA: [Plot; 2] = [
+    Plot { name: "stribeck", label: "friction coefficient", scale: Scale::Linear, curves: &[computed("", "friction_coefficient")] },
+    Plot { name: "life_against_lambda", label: OWN_LIFE, scale: Scale::Log, curves: &[computed("by damage", "life_damage"), computed("the paper's count", "life_global")] },
 ];
 
 fn figures(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
@@ -247,7 +256,6 @@ fn figure(sweep: &Sweep, rows: &Rows, along: &CurveAxis, lines: &[Line], plot: &
         y: (label.to_owned(), plot.scale),
         curves,
         levels: Vec::new(),
-        legend: Corner::UpperRight,
     }
 }
 
@@ -294,7 +302,6 @@ fn over_seeds(sweep: &Sweep, rows: &Rows) -> Option<(String, Figure)> {
             curve("greatest", Mark::Formula, |s| s.ends[1]),
         ],
         levels: Vec::new(),
-        legend: Corner::UpperRight,
     };
     Some(("life_over_seeds".to_owned(), figure))
 }
@@ -316,9 +323,8 @@ fn against_lambda(sweep: &Sweep, rows: &Rows, lines: &[Line]) -> Vec<(String, Fi
         scale: scale_of(&xs),
         short: String::new(),
     };
-    let draw = |(plot, legend): &(Plot, Corner)| {
+    let draw = |plot: &Plot| {
         let mut figure = figure(sweep, rows, &lambda, lines, plot);
-        figure.legend = *legend;
         for curve in &mut figure.curves {
             curve.points.retain(|(x, y)| x.is_finite() && y.is_finite());
             curve.points.sort_by(|one, two| one.0.total_cmp(&two.0));

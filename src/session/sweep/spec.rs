@@ -20,11 +20,11 @@
 
 use std::path::PathBuf;
 
-use toml::Value;
+use toml::{Table, Value};
 
 use super::axis::VariedKey;
 use super::error::SweepError;
-use super::path::PathPoint;
+use super::path::{PathKind, PathPoint};
 use super::reader::shown;
 use asperity_engine::scene::{ContactKind, Override, Scene, SceneError, Tooth};
 
@@ -179,6 +179,20 @@ impl Sweep {
             "load_n" if is_line => "load_n_per_m",
             other => other,
         }
+    }
+
+    /// The keys of the path's table as the file has them, each with its value; empty: there is no path.
+    pub fn path_keys(&self) -> Vec<(String, String)> {
+        let file = self.text.parse::<Table>().unwrap_or_default();
+        let tables = PathKind::ALL
+            .into_iter()
+            .filter_map(|kind| Some((kind.name(), file.get(kind.name())?.as_table()?)));
+        let keys = tables.flat_map(|(name, table)| {
+            table
+                .iter()
+                .map(move |(key, value)| (format!("{name}.{key}"), value.to_string()))
+        });
+        keys.collect()
     }
 
     /// The file as it was written.

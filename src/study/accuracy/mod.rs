@@ -18,7 +18,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use super::table::{MarkdownTable, figure};
 use super::{Extent, Report, StudyError, StudyProgress, refuse_nothing};
 use asperity_engine::scene::Order;
-use asperity_picture::chart::{Chart as _, Corner, Curve, Figure, Mark, Scale};
+use asperity_picture::chart::{Chart as _, Curve, Figure, Mark, Scale};
 
 /// The study's result.
 #[derive(Debug, Clone, PartialEq)]
@@ -257,7 +257,6 @@ fn plot(title: &str, curves: Vec<Curve>, levels: &[f64]) -> Result<String, Study
         y: ("relative error".to_owned(), Scale::Log),
         curves,
         levels: levels.to_vec(),
-        legend: Corner::LowerLeft,
     };
     Ok(figure.svg().map_err(StudyError::Plot)?.unwrap_or_default())
 }

@@ -3,7 +3,7 @@
 use super::tried::Tried;
 use super::{Evidence, Grade};
 use asperity_engine::scene::CycleBasis;
-use asperity_picture::chart::{Chart as _, Corner, Curve, Figure, Mark, Scale};
+use asperity_picture::chart::{Chart as _, Curve, Figure, Mark, Scale};
 
 /// Found against theirs, one colour a grade; the line is agreement.
 ///
@@ -36,7 +36,6 @@ pub fn agreement_plot(result: &Evidence) -> Result<String, String> {
         y: ("found, extrapolated".to_owned(), Scale::Log),
         curves,
         levels: Vec::new(),
-        legend: Corner::UpperRight,
     })
 }
 
@@ -69,7 +68,6 @@ pub fn experiments_plot(result: &Evidence) -> Result<Vec<(String, String)>, Stri
             ),
             curves: curves(tried),
             levels: Vec::new(),
-            legend: Corner::LowerLeft,
         };
         pictures.push((format!("evidence_{}.svg", parts.join("_")), draw(&figure)?));
     }
