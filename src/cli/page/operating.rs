@@ -74,9 +74,12 @@ fn surface(surface: &Surface) -> Vec<String> {
             wavelength_y_m,
             ..
         } => {
-            let wave = |length_m: f64| match length_m.is_finite() {
-                true => UM.show(length_m, 4),
-                false => "endless".to_owned(),
+            let wave = |length_m: f64| {
+                if length_m.is_finite() {
+                    UM.show(length_m, 4)
+                } else {
+                    "endless".to_owned()
+                }
             };
             vec![format!(
                 "sinusoid, an assumed one: amplitude {}, waves {} along and {} across; {rough}",

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use asperity_engine::math::number::sig;
+use asperity_engine::math::number::{sig, sig_or_dash};
 use asperity_engine::sim::{CautionCode, Summary};
 use asperity_session::sweep::{CaseEnd, FlankLife, Folder, Rows, Sweep, pictures};
 use maud::{Markup, html};
@@ -219,7 +219,7 @@ fn table(sweep: &Sweep, rows: &Rows, shown: &[Shown], worst: Option<usize>) -> M
                     td { (case) }
                     @for &axis in &axes { td { (sweep.values(case)[axis]) } }
                     @for (name, _, _, per, list) in &found {
-                        @if !said(name) { td data-column=(name) data-case=(case) { (sig(list[case] * per, 3)) } }
+                        @if !said(name) { td data-column=(name) data-case=(case) { (cell(name, list[case] * per)) } }
                     }
                 }
             }
@@ -227,10 +227,18 @@ fn table(sweep: &Sweep, rows: &Rows, shown: &[Shown], worst: Option<usize>) -> M
     }
 }
 
+/// A number as its cell has it: three figures, or the name of a body.
+fn cell(name: &str, value: f64) -> String {
+    if name == "life_body" && value.is_finite() {
+        format!("{value:.0}")
+    } else {
+        sig(value, 3)
+    }
+}
+
 /// The life of both flanks.
 fn flanks(sweep: &Sweep, places: &[FlankLife]) -> Markup {
     let loads = sweep.loads();
-    let cell = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| sig(value, 3));
     html! {
         h2 { "Both flanks" }
         p.sub {
@@ -246,8 +254,8 @@ fn flanks(sweep: &Sweep, places: &[FlankLife]) -> Markup {
             @for at in places {
                 tr {
                     td { (sig(1e3 * at.path_m, 3)) }
-                    @for turns in at.turns { td { (cell(turns)) } }
-                    td { (cell(at.hours)) }
+                    @for turns in at.turns { td { (sig_or_dash(turns, 3)) } }
+                    td { (sig_or_dash(at.hours, 3)) }
                     @if loads.len() > 1 { @for share in &at.shares { td { (sig(100.0 * share, 3)) } } }
                 }
             }
