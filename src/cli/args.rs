@@ -17,7 +17,7 @@ use clap::{Args, Parser, Subcommand};
 pub(crate) use self::recordings::{BesideValues, CompareArgs, CompareBy, ExportArgs};
 
 pub(crate) use self::study::{StudyArgs, StudyKind};
-pub(crate) use self::surface::SurfaceArgs;
+pub(crate) use self::surface::{SurfaceArgs, Turn};
 use self::sweep_texts::{SWEEP_ABOUT, SWEEP_EXAMPLES};
 
 const ABOUT: &str =
@@ -113,6 +113,7 @@ Examples:
   asperity surface flank.x3p                               best plane taken off, no other filter
   asperity surface scan.csv --pixel-m 1e-6 --unit-m 1e-9   where the file says neither
   asperity surface flank.sur --level quadratic --scene flank.toml
+  asperity surface flank.sur --crop-m 5e-6 --turn-deg lay --s-filter-m 2.5e-6 --l-filter-m 8e-4 --scene flank.toml
   asperity surface random_rollers                          the surfaces of a scene")]
     Surface(SurfaceArgs),
     /// Measure accuracy, cost and limits of the program itself

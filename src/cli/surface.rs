@@ -11,7 +11,7 @@ use asperity_engine::physics::areal::{self, ArealParameters};
 use asperity_engine::physics::kept::kept;
 use asperity_engine::scene::{MapEdge, Scene, Surface, presets};
 
-use super::args::SurfaceArgs;
+use super::args::{SurfaceArgs, Turn};
 use super::failure::Failure;
 use super::scenes::print;
 
@@ -59,6 +59,24 @@ fn draw(
 
 /// The default scene with the file on body 1, and a smooth body 2.
 fn with_map(args: &SurfaceArgs) -> Result<Scene, Failure> {
+    match args.turn_deg {
+        None => turned_map(args, None),
+        Some(Turn::Degrees(degrees)) => turned_map(args, Some(degrees)),
+        Some(Turn::Lay) => {
+            let as_it_lies = turned_map(args, None)?;
+            let found = as_it_lies.body_1.surface.relief_heights_m();
+            let found = found.and_then(|(nx, z, pixel_m)| areal::parameters(nx, &z, pixel_m));
+            match found.and_then(|found| found.lay_deg) {
+                // As it is printed: a scene holds no digits that nobody measured.
+                Some(lay) => turned_map(args, Some(-(10.0 * lay).round() / 10.0)),
+                None => Ok(as_it_lies),
+            }
+        }
+    }
+}
+
+/// With the map turned so.
+fn turned_map(args: &SurfaceArgs, turn_deg: Option<f64>) -> Result<Scene, Failure> {
     let mut scene = Scene::load(presets::DEFAULT)?;
     "A measured surface on a smooth one".clone_into(&mut scene.title);
     scene.about = format!(
@@ -74,6 +92,10 @@ fn with_map(args: &SurfaceArgs) -> Result<Scene, Failure> {
         level: Some(args.level()),
         outliers: args.outliers(),
         amplitude_m: None,
+        crop_m: args.crop_m,
+        turn_deg,
+        s_filter_m: args.s_filter_m,
+        l_filter_m: args.l_filter_m,
         start_x_m: None,
         digest: None,
         map: None,

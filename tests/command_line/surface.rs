@@ -158,3 +158,122 @@ fn who_slides_farther_meets_a_higher_crest() {
         }
     }
 }
+
+/// A table of heights in µm, pixels of 1 µm, `z` of column and row.
+fn file(folder: &std::path::Path, name: &str, [nx, ny]: [usize; 2], z: impl Fn(f64, f64) -> f64) {
+    let row = |j: usize| {
+        let cells = (0..nx).map(|i| format!("{:.9}", z(i as f64, j as f64)));
+        cells.collect::<Vec<_>>().join(",")
+    };
+    let text = (0..ny).map(row).collect::<Vec<_>>().join("\n");
+    std::fs::write(folder.join(name), text).unwrap();
+}
+
+/// Waves of 400, 40 and 4 µm through an S-filter of 10 and an L-filter of 150 µm: each passes by 2^(−(λ/w)²), so Sq is known; the
+/// scene that is written has the same surface.
+#[test]
+fn filters_pass_what_their_standard_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let waves = [(2.0, 400.0), (0.5, 40.0), (0.1, 4.0)];
+    file(folder, "three.csv", [400, 80], |x, _| {
+        waves.iter().map(|(a, w)| a * (TAU * x / w).cos()).sum()
+    });
+    let units = [
+        "three.csv",
+        "--pixel-m",
+        "1e-6",
+        "--unit-m",
+        "1e-6",
+        "--level",
+        "mean",
+    ];
+    let filters = ["--s-filter-m", "1e-5", "--l-filter-m", "1.5e-4"];
+    let line = [&units[..], &filters, &["--scene", "three.toml"]].concat();
+    let text = String::from_utf8(asked(folder, &line).stdout).unwrap();
+    assert!(
+        text.contains("S-filter 10.0 µm") && text.contains("L-filter 150 µm"),
+        "{text}"
+    );
+    let low = |cut_off: f64, w: f64| 2_f64.powf(-(cut_off / w).powi(2));
+    let passed = |s: f64, l: f64| {
+        let squares = waves
+            .iter()
+            .map(|(a, w)| (a * low(s, *w) * (1.0 - low(l, *w))).powi(2));
+        (0.5 * squares.sum::<f64>()).sqrt()
+    };
+    let sq = passed(10.0, 150.0);
+    assert!(
+        (number(&text, "Sq") / sq - 1.0).abs() < 1e-4,
+        "{sq}\n{text}"
+    );
+    let again = String::from_utf8(asked(folder, &["three.toml"]).stdout).unwrap();
+    assert_eq!(number(&again, "Sq"), number(&text, "Sq"));
+    // One alone, and none.
+    for (line, s, l) in [
+        (&filters[..2], 10.0, 1e9),
+        (&filters[2..], 0.0, 150.0),
+        (&[][..], 0.0, 1e9),
+    ] {
+        let text = String::from_utf8(asked(folder, &[&units[..], line].concat()).stdout).unwrap();
+        assert!(
+            (number(&text, "Sq") / passed(s, l) - 1.0).abs() < 1e-4,
+            "{text}"
+        );
+    }
+}
+
+/// Ridges across a direction of 30 degrees are found, and turned to stand across x; the rim that is cut is gone.
+#[test]
+fn a_lay_is_turned_to_the_rolling_direction() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let (sin, cos) = 30_f64.to_radians().sin_cos();
+    file(folder, "lay.csv", [240, 200], |x, y| {
+        0.2 * (TAU * (x * cos + y * sin) / 20.0).cos()
+    });
+    let units = ["lay.csv", "--pixel-m", "1e-6", "--unit-m", "1e-6"];
+    let told = |line: &[&str]| {
+        String::from_utf8(asked(folder, &[&units[..], line].concat()).stdout).unwrap()
+    };
+    let as_it_lies = told(&[]);
+    assert!(
+        (number(&as_it_lies, "lay") - 30.0).abs() < 0.6,
+        "{as_it_lies}"
+    );
+    let turned = told(&["--turn-deg", "lay", "--crop-m", "1e-5"]);
+    assert!(number(&turned, "lay").abs() < 0.6, "{turned}");
+    assert!(
+        (number(&turned, "Rq") / number(&turned, "Sq") - 1.0).abs() < 0.02,
+        "{turned}"
+    );
+    assert!(turned.contains("10.0 µm cut off on every side"), "{turned}");
+    let by_hand = told(&["--turn-deg", "-30"]);
+    assert!(number(&by_hand, "lay").abs() < 0.6, "{by_hand}");
+}
+
+#[test]
+fn what_no_map_can_be_made_of_is_refused_by_its_key() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    file(folder, "small.csv", [8, 8], |x, y| 0.1 * (x - y).sin());
+    for (line, words) in [
+        (&["--crop-m", "3e-6"][..], "crop_m"),
+        (&["--s-filter-m", "1e-6"], "s_filter_m"),
+        (
+            &["--s-filter-m", "4e-6", "--l-filter-m", "3e-6"],
+            "more than 4e-6 m: s_filter_m",
+        ),
+        (&["--turn-deg", "45", "--crop-m", "2e-6"], "turn_deg"),
+        (&["--turn-deg", "400"], "-360 to 360"),
+    ] {
+        let units = ["small.csv", "--pixel-m", "1e-6", "--unit-m", "1e-6"];
+        let output = asked(folder, &[&units[..], line].concat());
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            output.status.code() == Some(1) || output.status.code() == Some(2),
+            "{line:?} {text}"
+        );
+        assert!(text.contains(words), "{line:?} {text}");
+    }
+}

@@ -18,6 +18,7 @@
 use std::f64::consts::PI;
 
 use super::levelling::{Form, MapLevel, MapOutliers, Pixels};
+use super::preparation::low_pass;
 use crate::math::spectrum::mean_power;
 
 crate::closed_set! {
@@ -41,6 +42,17 @@ impl MapEdge {
             Self::Windowed => MapLevel::Plane,
         }
     }
+}
+
+/// What is done to the heights of a map, in this order: outliers, S-filter, level, L-filter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Treatment {
+    /// What is taken off.
+    pub level: MapLevel,
+    /// What becomes of outliers.
+    pub outliers: MapOutliers,
+    /// Cut-offs of the S- and the L-filter, pixels.
+    pub filters: [Option<f64>; 2],
 }
 
 /// Part of the variance of height that lies in waves longer than [`HeightMap::shortest`].
@@ -150,8 +162,13 @@ impl HeightMap {
         nx: usize,
         heights_m: &[f64],
         beyond: MapEdge,
-        (level, outlying): (MapLevel, MapOutliers),
+        treatment: Treatment,
     ) -> Option<Self> {
+        let Treatment {
+            level,
+            outliers: outlying,
+            filters: [short, long],
+        } = treatment;
         let raw = Pixels::new(nx, heights_m);
         let outliers = raw.outliers(&raw.form(), beyond);
         let mut sound_m = heights_m.to_vec();
@@ -162,9 +179,22 @@ impl HeightMap {
             MapOutliers::Keep => heights_m,
             MapOutliers::Median => &sound_m,
         };
+        let smooth_m = short.map(|cut_off| low_pass(nx, kept_m, beyond, cut_off));
+        let kept_m = smooth_m.as_deref().unwrap_or(kept_m);
         let kept = Pixels::new(nx, kept_m);
         let (form, variance) = (kept.form(), kept.variance());
-        let mut map = Self::levelled(nx, kept_m, beyond, (level, form))?;
+        let mut map = match long {
+            None => Self::levelled(nx, kept_m, beyond, (level, form))?,
+            Some(cut_off) => {
+                let flat = form.of(level);
+                let flat: Vec<f64> = (0..kept_m.len()).map(|n| kept_m[n] - flat.at(n)).collect();
+                let long = low_pass(nx, &flat, beyond, cut_off);
+                let rough: Vec<f64> = flat.iter().zip(&long).map(|(z, long)| z - long).collect();
+                let none = form.of(MapLevel::None);
+                Self::levelled(nx, &rough, beyond, (MapLevel::Mean, none))?
+            }
+        };
+        (map.facts.level, map.facts.plane_m) = (level, form.slopes);
         let shortest = |heights_m: &[f64], level: MapLevel| {
             let form = Pixels::new(nx, heights_m).form();
             Self::levelled(nx, heights_m, beyond, (level, form)).map(|map| map.shortest)
@@ -194,7 +224,12 @@ impl HeightMap {
     /// A map of `nx` columns along x, row after row towards +y; `None` where there is no height at all.
     /// Heights must be finite, in m.
     pub fn new(nx: usize, heights_m: &[f64], beyond: MapEdge) -> Option<Self> {
-        Self::treated(nx, heights_m, beyond, (MapLevel::Mean, MapOutliers::Keep))
+        let plain = Treatment {
+            level: MapLevel::Mean,
+            outliers: MapOutliers::Keep,
+            filters: [None; 2],
+        };
+        Self::treated(nx, heights_m, beyond, plain)
     }
 
     /// A map that was made and not measured: periodic, less its mean, without outliers.

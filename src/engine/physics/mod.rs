@@ -26,6 +26,7 @@ pub mod life_models;
 pub mod line;
 pub mod multiaxial;
 pub mod oil_grade;
+pub mod preparation;
 pub mod race_and_cam;
 pub mod rainflow;
 pub mod random_surface;

@@ -27,8 +27,9 @@ use super::keys::{self, joined, short};
 use super::map_report::tilt;
 use super::presets;
 use crate::files::{FnvHasher, read_up_to};
-use crate::physics::height_map::{FileDefects, HeightMap, MapEdge};
+use crate::physics::height_map::{FileDefects, HeightMap, MapEdge, Treatment};
 use crate::physics::levelling::{MapLevel, MapOutliers};
+use crate::physics::preparation::{cropped, turned};
 
 /// Largest file, bytes.
 const LARGEST_FILE: u64 = 64 << 20;
@@ -88,6 +89,10 @@ pub(super) struct Asked<'a> {
     pub(super) beyond: MapEdge,
     pub(super) level: Option<MapLevel>,
     pub(super) outliers: MapOutliers,
+    pub(super) crop_m: Option<f64>,
+    pub(super) turn_deg: Option<f64>,
+    /// Cut-offs of the S- and the L-filter.
+    pub(super) filters_m: [Option<f64>; 2],
 }
 
 /// A map that has been read, with what the scene left to its file.
@@ -117,9 +122,13 @@ impl Asked<'_> {
         check(&matrix, unit_m).map_err(refused)?;
         let pixel_m = self.pixel_m(&matrix, &header)?;
         let heights: Vec<f64> = matrix.values.iter().map(|v| v * unit_m).collect();
-        let level = self.level.unwrap_or(self.beyond.usual_level());
-        let treatment = (level, self.outliers);
-        let mut map = HeightMap::treated(matrix.columns, &heights, self.beyond, treatment)
+        let (columns, heights) = self.cut_and_turned(matrix.columns, heights, pixel_m)?;
+        let treatment = Treatment {
+            level: self.level.unwrap_or(self.beyond.usual_level()),
+            outliers: self.outliers,
+            filters: self.filters(pixel_m)?,
+        };
+        let mut map = HeightMap::treated(columns, &heights, self.beyond, treatment)
             .ok_or_else(|| refused(refusal("flat", "a map whose heights differ")))?;
         (map.facts.missing, map.facts.defects) = (missing, defects);
         if self.level.is_none() && map.facts.is_open {
@@ -138,6 +147,58 @@ impl Asked<'_> {
             pixel_m,
             unit_m,
         })
+    }
+
+    /// The map without its rim, turned.
+    fn cut_and_turned(
+        &self,
+        columns: usize,
+        heights: Vec<f64>,
+        pixel_m: f64,
+    ) -> Result<(usize, Vec<f64>), SceneError> {
+        let too_little = |key: &str, value: f64, unit: &str| {
+            let value = format!("{} {unit}", short(value));
+            let allowed = format!("what leaves {} pixels a side", SIDE.start());
+            SceneError::map(joined(self.table, key), value, allowed)
+        };
+        let (mut columns, mut heights) = (columns, heights);
+        if let Some(rim_m) = self.crop_m {
+            let rim = (rim_m / pixel_m).round() as usize;
+            (columns, heights) =
+                cropped(columns, &heights, rim).ok_or_else(|| too_little("crop_m", rim_m, "m"))?;
+        }
+        if let Some(degrees) = self.turn_deg {
+            (columns, heights) = turned(columns, &heights, degrees)
+                .ok_or_else(|| too_little("turn_deg", degrees, "degrees"))?;
+        }
+        Ok((columns, heights))
+    }
+
+    /// Cut-offs in pixels.
+    fn filters(&self, pixel_m: f64) -> Result<[Option<f64>; 2], SceneError> {
+        let [short_m, long_m] = self.filters_m;
+        let refused = |key: &str, value_m: f64, least_m: f64, what: &str| {
+            let allowed = format!("more than {} m: {what}", short(rounded(least_m)));
+            SceneError::map(
+                joined(self.table, key),
+                format!("{} m", short(value_m)),
+                allowed,
+            )
+        };
+        let least_m = 2.0 * pixel_m;
+        if let Some(short_m) = short_m.filter(|short_m| *short_m < least_m) {
+            return Err(refused("s_filter_m", short_m, least_m, "two pixels"));
+        }
+        let least_m = short_m.unwrap_or(least_m);
+        if let Some(long_m) = long_m.filter(|long_m| *long_m <= least_m) {
+            let what = if short_m.is_some() {
+                "s_filter_m"
+            } else {
+                "two pixels"
+            };
+            return Err(refused("l_filter_m", long_m, least_m, what));
+        }
+        Ok(self.filters_m.map(|cut_off_m| Some(cut_off_m? / pixel_m)))
     }
 
     fn refused(&self, r: Refusal) -> SceneError {

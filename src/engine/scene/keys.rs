@@ -45,6 +45,10 @@ const SURFACE: &[Key] = &[
     key("edge", "", Choice(MapEdge::KEYS), Defaulted, "repeated without end, or once (tapered to 0)"),
     key("level", "", Choice(MapLevel::KEYS), Optional("plane of a windowed map; mean of a periodic one, of which a tilt whose ends do not meet is refused"), "what is taken off by least squares: plane and quadratic with the mean (windowed: mean of the rim)"),
     key("outliers", "", Choice(MapOutliers::KEYS), Defaulted, "pixels that stand out of the 5 by 5 about them by six times the usual are kept, or become the median of those"),
+    key("crop_m", "m", Number(0.0, 1.0), Optional("all of it"), "rim that is cut off on every side, first of all"),
+    key("turn_deg", "degrees", Number(-360.0, 360.0), Optional("as it lies"), "angle by which the map is turned from x towards y, such as minus its lay (asperity surface says it): the largest rectangle within is left"),
+    key("s_filter_m", "m", Number(1e-8, 1.0), Optional("none"), "cut-off of an areal Gaussian filter (ISO 16610-61) that takes away what is shorter, before the level; at least 2 pixels"),
+    key("l_filter_m", "m", Number(1e-8, 1.0), Optional("none"), "cut-off of one that takes away what is longer, after the level; more than s_filter_m"),
     key("unit_m", "m", Number(1e-12, 1e3), Optional("as the header of the file says, else 1"), "height that a value of 1 stands for; a header that says otherwise is refused"),
     key("start_x_m", "m", Number(-1e3, 1e3), Optional("just upstream of the domain"), "where the middle of a windowed map is at t = 0"),
     key("seed", "", Integer(0, 1_000_000_000), Optional("1; on body 2 a million more than body 1's"), "which surface of that kind: equal seeds and keys make equal surfaces"),
@@ -80,7 +84,10 @@ const OF_RANDOM: [&str; 12] = [
     "skewness", "kurtosis", "period_x_m", "period_y_m",
 ];
 #[rustfmt::skip]
-const OF_MAP: [&str; 8] = ["file", "digest", "pixel_m", "edge", "level", "outliers", "unit_m", "start_x_m"];
+const OF_MAP: [&str; 12] = [
+    "file", "digest", "pixel_m", "edge", "level", "outliers", "crop_m", "turn_deg", "s_filter_m", "l_filter_m", "unit_m",
+    "start_x_m",
+];
 
 /// Every table of a scene in the order in which it is printed.
 #[rustfmt::skip] // one line a key

@@ -256,6 +256,10 @@ impl Scene {
                 digest,
                 level,
                 outliers,
+                crop_m,
+                turn_deg,
+                s_filter_m,
+                l_filter_m,
                 map,
                 ..
             } = &mut body.surface
@@ -269,6 +273,9 @@ impl Scene {
                     beyond: *edge,
                     level: *level,
                     outliers: *outliers,
+                    crop_m: *crop_m,
+                    turn_deg: *turn_deg,
+                    filters_m: [*s_filter_m, *l_filter_m],
                 };
                 let found = asked.read(folder)?;
                 if digest

@@ -54,6 +54,18 @@ pub struct MapReport {
     pub outliers_are: MapOutliers,
     /// Greatest departure that the scene asks for, m.
     pub amplitude_m: f64,
+    /// Rim that was cut off, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub crop_m: Option<f64>,
+    /// Angle by which the map was turned from x towards y, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turn_deg: Option<f64>,
+    /// Cut-off of the S-filter, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub s_filter_m: Option<f64>,
+    /// Cut-off of the L-filter, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub l_filter_m: Option<f64>,
 }
 
 /// A slope of the best plane that is rounding, over the share.
@@ -73,6 +85,10 @@ impl Surface {
             pixel_m,
             edge,
             unit_m,
+            crop_m,
+            turn_deg,
+            s_filter_m,
+            l_filter_m,
             map: Some(map),
             ..
         } = self
@@ -104,6 +120,10 @@ impl Surface {
             outliers: facts.outliers,
             outliers_are: facts.outlying,
             amplitude_m: self.amplitude_m(),
+            crop_m: *crop_m,
+            turn_deg: *turn_deg,
+            s_filter_m: *s_filter_m,
+            l_filter_m: *l_filter_m,
         })
     }
 
@@ -189,6 +209,7 @@ impl MapReport {
                 sig(self.max_over_sq, 3)
             ),
         ];
+        lines.splice(1..1, self.prepared());
         let greatest_m = self.max_m.max(-self.min_m);
         if (self.amplitude_m / greatest_m - 1.0).abs() > 1e-9 {
             let amplitude = length(self.amplitude_m);
@@ -212,6 +233,26 @@ impl MapReport {
             });
         }
         lines
+    }
+
+    /// What was done to it before, in a line; `None`: nothing.
+    fn prepared(&self) -> Option<String> {
+        let filter = |name: &str, cut_off_m: Option<f64>| {
+            Some(format!(
+                "{name} {} (Gaussian, ISO 16610-61)",
+                length(cut_off_m?)
+            ))
+        };
+        let done = [
+            self.crop_m
+                .map(|rim_m| format!("{} cut off on every side", length(rim_m))),
+            self.turn_deg
+                .map(|degrees| format!("turned by {} degrees", sig(degrees, 4))),
+            filter("S-filter", self.s_filter_m),
+            filter("L-filter", self.l_filter_m),
+        ];
+        let done: Vec<String> = done.into_iter().flatten().collect();
+        (!done.is_empty()).then(|| format!("prepared: {}", done.join(", ")))
     }
 
     fn taken_off(&self) -> String {

@@ -175,6 +175,18 @@ pub enum Surface {
         /// What becomes of outlying pixels.
         #[serde(default)]
         outliers: MapOutliers,
+        /// Rim that is cut off, m.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        crop_m: Option<f64>,
+        /// Angle by which the map is turned from x towards y, degrees.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        turn_deg: Option<f64>,
+        /// Cut-off of the S-filter, m.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        s_filter_m: Option<f64>,
+        /// Cut-off of the L-filter, m.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        l_filter_m: Option<f64>,
         /// Maximum departure from the map's level, m; `None`: as in the file.
         #[serde(skip_serializing_if = "Option::is_none")]
         amplitude_m: Option<f64>,

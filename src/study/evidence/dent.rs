@@ -13,6 +13,10 @@ const DIP_M: f64 = 80e-6;
 
 pub(super) fn dent(scene: &Scene, plan: Plan) -> Result<Values, String> {
     let Surface::HeightMap {
+        crop_m: None,
+        turn_deg: None,
+        s_filter_m: None,
+        l_filter_m: None,
         start_x_m: Some(start_m),
         ..
     } = scene.body_1.surface
