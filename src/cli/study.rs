@@ -8,6 +8,7 @@ use asperity_study::accuracy::accuracy;
 use asperity_study::evidence::{
     agreement_plot, evidence, evidence_table, evidence_text, experiments_plot, kept_in,
 };
+use asperity_study::heat::{heat, heat_report};
 use asperity_study::scaling::{scaling, scaling_report};
 use asperity_study::stability::{stability, stability_report};
 use asperity_study::story::{story, story_report};
@@ -82,6 +83,7 @@ fn measured(args: &StudyArgs, progress: &mut StudyProgress) -> Result<Report, St
             extent, only, &args.set, threads, progress,
         )?)),
         StudyKind::Scaling => Ok(scaling_report(&scaling(extent, only, progress)?)),
+        StudyKind::Heat => Ok(heat_report(&heat(extent, only, threads, progress)?)),
         StudyKind::Story => Ok(story_report(&story(extent, only, threads, progress)?)),
         StudyKind::Evidence => {
             let result = evidence(extent, only, threads, args.out.as_deref(), progress)?;

@@ -26,6 +26,16 @@ pub(crate) struct AgeCurves {
     has: fn(&Scene) -> bool,
 }
 
+impl AgeCurves {
+    /// Whether it is what damage and wear come to.
+    pub(crate) fn is_of_the_race(&self) -> bool {
+        [PITS, LIFE].contains(&self.entity)
+    }
+}
+
+const PITS: &str = "ages/pits_percent";
+const LIFE: &str = "ages/log10_life";
+
 /// All of them.
 pub(crate) static AGES: [AgeCurves; 7] = [
     AgeCurves {
@@ -56,7 +66,7 @@ pub(crate) static AGES: [AgeCurves; 7] = [
         },
     },
     AgeCurves {
-        entity: "ages/pits_percent",
+        entity: PITS,
         title: "Surface with pits, %",
         names: &["body 1", "body 2"],
         values: |age| [age.pitted_area_1, age.pitted_area_2].map(|area| Some(100.0 * area?)),
@@ -77,7 +87,7 @@ pub(crate) static AGES: [AgeCurves; 7] = [
         has: |_| true,
     },
     AgeCurves {
-        entity: "ages/log10_life",
+        entity: LIFE,
         title: "Life of surfaces that stay so, log10",
         names: &["life, log10"],
         values: |age| {

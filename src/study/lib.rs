@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod evidence;
+pub mod heat;
 mod machine;
 pub mod scaling;
 pub mod stability;

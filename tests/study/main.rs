@@ -3,6 +3,7 @@
 #[path = "../common/engine.rs"]
 mod common;
 mod evidence;
+mod heat;
 mod peers;
 mod pruning;
 mod story;

@@ -74,6 +74,8 @@ pub(crate) enum StudyKind {
     Scaling,
     /// Published tables and experiments beside what is found here; each row is a scene: asperity run evidence/NAME
     Evidence,
+    /// What heat does to friction, film and life of the presets that slide, beside closed forms
+    Heat,
     /// Life of the first scene against S on every mesh, by both counts, with what takes it
     Story,
 }

@@ -37,8 +37,9 @@ pub fn turned(nx: usize, z: &[f64], degrees: f64) -> Option<Turned> {
     }
     let (sin, cos) = degrees.to_radians().sin_cos();
     let [wide, high] = [nx, ny].map(|n| (n - 1) as f64);
-    let share = |own: f64, along: f64, across: f64| own / (along * cos.abs() + across * sin.abs());
-    let share = share(wide, wide, high).min(share(high, high, wide));
+    // A pixel on each side is for the interpolation.
+    let share = |along: f64, across: f64| (along - 2.0) / (along * cos.abs() + across * sin.abs());
+    let share = share(wide, high).min(share(high, wide));
     let sides = [wide, high].map(|side| (share * side).floor() as usize + 1);
     if sides.iter().any(|side| *side < 4) {
         return None;
@@ -75,7 +76,7 @@ fn by_quarters(nx: usize, ny: usize, z: &[f64], quarters: usize) -> Turned {
     (sides[0], out)
 }
 
-/// Between the pixels, from the middle of the map; the outermost stand for those beyond.
+/// Between the pixels, from the middle of the map.
 fn sampled(nx: usize, ny: usize, z: &[f64], [x, y]: [f64; 2]) -> f64 {
     let ((i, along), (j, across)) = (HeightMap::stencil(x, nx), HeightMap::stencil(y, ny));
     let held = |k: i64, n: usize| k.clamp(0, n as i64 - 1) as usize;

@@ -39,6 +39,7 @@ pub(crate) fn all(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
     tabs.extend(damage_of_both(views, shown));
     tabs.extend(analysis(views, shown));
     tabs.extend(heat(views, shown));
+    tabs.extend(race(views, shown));
     tabs.extend(ageing(views, shown));
     tabs.push(scalars(views, shown));
     tabs.push(convergence(views));
@@ -150,19 +151,37 @@ fn analysis(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
     (!shown.research.is_empty()).then(|| grid.into())
 }
 
-/// What surfaces come to over loading cycles.
-fn ageing(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
-    let mut plot = |curves: &AgeCurves| {
-        views.plot(curves.title, &[curves.entity], &ages::plot(), Margin::Plain)
-    };
-    let mut all: Vec<ContainerLike> = shown.ages.iter().map(|&curves| plot(curves)).collect();
-    let is_empty = all.is_empty();
-    all.extend((1..).zip(shown.suffered).map(|(body, entity)| {
+/// The damage that both bodies hold as wear carries it off, and what comes of it: pits, and the life.
+fn race(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+    let maps = (1..).zip(shown.suffered).map(|(body, entity)| {
         let title = format!("Damage that body {body} holds: a pit from 0 on");
         views.plot(&title, &[*entity], &damage::plot_box(), Margin::Legend)
-    }));
+    });
+    let mut all: Vec<ContainerLike> = maps.collect();
+    let is_empty = all.is_empty();
+    all.extend(over_cycles(views, shown, AgeCurves::is_of_the_race));
+    let grid = Grid::new(all).with_grid_columns(2);
+    (!is_empty).then(|| grid.with_name("Pits").into())
+}
+
+/// What surfaces come to over loading cycles.
+fn ageing(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
+    let races = !shown.suffered.is_empty();
+    let all = over_cycles(views, shown, |curves| !races || !curves.is_of_the_race());
+    let is_empty = all.is_empty();
     let grid = Grid::new(all).with_grid_columns(3);
     (!is_empty).then(|| grid.with_name("Ageing").into())
+}
+
+fn over_cycles(
+    views: &mut Views,
+    shown: &ShownViews,
+    which: impl Fn(&AgeCurves) -> bool,
+) -> Vec<ContainerLike> {
+    let own = shown.ages.iter().filter(|curves| which(curves));
+    let plot =
+        own.map(|curves| views.plot(curves.title, &[curves.entity], &ages::plot(), Margin::Plain));
+    plot.collect()
 }
 
 fn over_time(views: &mut Views, shown: &ShownViews, pressure: bool) -> ContainerLike {
