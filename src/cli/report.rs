@@ -233,10 +233,12 @@ fn add_heat(lines: &mut Lines, s: &Summary) {
     let oil = known(s.film_temperature_max_k, |k| {
         format!("oil up to {} degrees C", sig(k - 273.15, 4))
     });
-    let inlet = match s.inlet_heating_factor {
-        Some(factor) => format!(
-            "; film and friction are those of the warm oil; a smooth film by Wilson & Sheu (1983): {} times the cold one",
-            sig(factor, 3)
+    let inlet = match s.inlet_heating_factor.zip(s.inlet_heating_factor_gupta) {
+        Some((wilson, gupta)) => format!(
+            "; film and friction are those of the warm oil; a smooth film by Wilson & Sheu (1983): {} times the cold one, by Gupta \
+             et al. (1992) {}",
+            sig(wilson, 3),
+            sig(gupta, 3)
         ),
         None => "; film and friction are those of cold oil".to_owned(),
     };

@@ -50,7 +50,7 @@ impl Asked {
         format!("{}, {how}", self.preset)
     }
 
-    fn run(&self) -> Result<(Option<LeftHeat>, f64, Summary), String> {
+    fn run(&self) -> Result<Found, String> {
         let mut sets = vec![
             format!("grid.nodes={}", self.nodes),
             "record=none".to_owned(),
@@ -61,8 +61,19 @@ impl Asked {
         let (scene, plan) = planned(scene_with(self.preset, &sets)?)?;
         let (before, slide_roll) = (LeftHeat::new(&scene, &plan), scene.motion.slide_roll);
         let finished = climb(Arc::new(scene), plan, 1)?;
-        Ok((before, slide_roll, finished.summary))
+        Ok(Found {
+            before,
+            slide_roll,
+            summary: finished.summary,
+        })
     }
+}
+
+/// What a run of it tells.
+struct Found {
+    before: Option<LeftHeat>,
+    slide_roll: f64,
+    summary: Summary,
 }
 
 /// A preset, cold and warm.
@@ -116,12 +127,12 @@ pub fn heat(
     let warmed = found
         .chunks_exact(EXPONENTS.len())
         .zip(asked.chunks_exact(EXPONENTS.len()));
-    let one = |(found, asked): (&[(Option<LeftHeat>, f64, Summary)], &[Asked])| Warmed {
+    let one = |(found, asked): (&[Found], &[Asked])| Warmed {
         preset: asked[0].preset,
-        slide_roll: found[0].1,
-        before: found[0].0,
-        cold: found[0].2.clone(),
-        warm: [1, 2, 3].map(|k| found[k].2.clone()),
+        slide_roll: found[0].slide_roll,
+        before: found[0].before,
+        cold: found[0].summary.clone(),
+        warm: [1, 2, 3].map(|k| found[k].summary.clone()),
     };
     Ok(warmed.map(one).collect())
 }
@@ -170,13 +181,11 @@ pub fn heat_report(warmed: &[Warmed]) -> Report {
         ("oil at most, °C", |w| {
             figure(w.warm[0].film_temperature_max_k.map(|k| k - 273.15))
         }),
-        ("film by Wilson & Sheu, found", |w| {
-            let found = w.warm[0].h_central_m / w.cold.h_central_m;
-            format!(
-                "{}, {}",
-                figure(w.warm[0].inlet_heating_factor),
-                figure(Some(found))
-            )
+        ("film by Wilson & Sheu, Gupta et al., found", |w| {
+            let warm = &w.warm[0];
+            let found = Some(warm.h_central_m / w.cold.h_central_m);
+            let said = [warm.inlet_heating_factor, warm.inlet_heating_factor_gupta];
+            [said[0], said[1], found].map(figure).join(", ")
         }),
         ("friction", |w| w.beside(|s| Some(s.friction_coefficient))),
         ("life", |w| w.beside(|s| s.life_relative)),

@@ -122,6 +122,7 @@ fn heat_changes_nothing_else() {
         heat_error: None,
         flash_temperature_blok_k: None,
         inlet_heating_factor: None,
+        inlet_heating_factor_gupta: None,
         cautions: plain.cautions.clone(),
         ..warm
     };

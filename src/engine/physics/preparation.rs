@@ -57,7 +57,7 @@ pub fn turned(nx: usize, z: &[f64], degrees: f64) -> Option<Turned> {
 
 fn by_quarters(nx: usize, ny: usize, z: &[f64], quarters: usize) -> Turned {
     let at = |i: usize, j: usize| z[j * nx + i];
-    let sides = if quarters % 2 == 0 {
+    let sides = if quarters.is_multiple_of(2) {
         [nx, ny]
     } else {
         [ny, nx]

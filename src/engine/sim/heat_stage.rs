@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::scaling::Scaling;
 use crate::math::grid::Grid;
-use crate::physics::heat_estimate::inlet_factor;
+use crate::physics::heat_estimate::{inlet_factor, inlet_factor_gupta};
 use crate::physics::thinning::Thinning;
 use crate::saved::saved;
 use crate::scene::Scene;
@@ -439,11 +439,16 @@ pub(super) fn blok(scene: &Scene, friction: f64, half_width_m: f64, p_hertz_pa: 
     scene.flash_by_blok_k(scene.motion.slide_roll, friction, half_width_m, p_hertz_pa)
 }
 
-/// Wilson and Sheu's factor of the film; `None`: dry, or nobody knows how the viscosity falls.
-pub(super) fn inlet(scene: &Scene) -> Option<f64> {
+/// Factors of the film after Wilson and Sheu, and after Gupta et al.; `None`: dry, or nobody knows how the viscosity falls.
+pub(super) fn inlet(scene: &Scene, p_hertz_pa: f64) -> Option<[f64; 2]> {
     let (heat, oil) = scene.heat.zip(scene.lubricant.as_ref())?;
     let u = scene.motion.entrainment_m_s;
     let beta = heat.thinning(oil)?.slope_per_k();
     let loading = beta * oil.viscosity_pa_s() * u * u / heat.thermal_conductivity_w_mk;
-    Some(inlet_factor(scene.motion.slide_roll, loading))
+    let slide_roll = scene.motion.slide_roll;
+    let strain = p_hertz_pa / scene.e_prime_pa();
+    Some([
+        inlet_factor(slide_roll, loading),
+        inlet_factor_gupta(slide_roll, loading, strain),
+    ])
 }

@@ -256,6 +256,9 @@ pub struct Summary {
     /// how the viscosity falls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inlet_heating_factor: Option<f64>,
+    /// The same after Gupta et al.: formulas for it disagree.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inlet_heating_factor_gupta: Option<f64>,
     /// Film of a gear's flank after ISO/TS 6336-22, m, with the viscosity at Blok's flash temperature where the scene says how the
     /// oil thins; `None`: dry, or no line.
     #[serde(default, skip_serializing_if = "Option::is_none")]

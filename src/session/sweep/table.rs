@@ -83,7 +83,7 @@ const ASKED: &[(&str, InRecord)] = optional! {
     cycles wear_depth_1_m wear_depth_2_m pitted_area_1 pitted_area_2
     flash_temperature_max_k flash_temperature_mean_k contact_temperature_max_k
     film_temperature_max_k heat_share_1
-    flash_temperature_blok_k inlet_heating_factor
+    flash_temperature_blok_k inlet_heating_factor inlet_heating_factor_gupta
 };
 
 fn own_columns() -> impl Iterator<Item = &'static (&'static str, InRecord)> {

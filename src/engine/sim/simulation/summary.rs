@@ -94,6 +94,7 @@ fn with_heat(sim: View, summary: Summary) -> Summary {
     };
     let friction = summary.friction_coefficient;
     let blok = heat_stage::blok(scene, friction, summary.a_m, summary.p_hertz_pa);
+    let inlet = heat_stage::inlet(scene, summary.p_hertz_pa);
     Summary {
         flash_temperature_max_k: Some(warmed.greatest_k),
         flash_temperature_mean_k: Some(warmed.mean_k),
@@ -103,7 +104,8 @@ fn with_heat(sim: View, summary: Summary) -> Summary {
         heat_share_1: Some(warmed.share_1),
         heat_error: Some(warmed.lost),
         flash_temperature_blok_k: Some(blok).filter(|blok| blok.is_finite()),
-        inlet_heating_factor: heat_stage::inlet(scene),
+        inlet_heating_factor: inlet.map(|factors| factors[0]),
+        inlet_heating_factor_gupta: inlet.map(|factors| factors[1]),
         ..summary
     }
 }
