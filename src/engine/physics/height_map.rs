@@ -92,6 +92,8 @@ crate::closed_set! {
         Folder = "folder" "main.xml lies in a folder",
         /// `.x3p`: the sum that the standard asks for is not there.
         NoChecksum = "no_checksum" "no md5checksum.hex",
+        /// `.x3p`: the sum there is not that of main.xml, as of many programs.
+        WrongChecksum = "wrong_checksum" "md5checksum.hex is not that of main.xml",
         /// `.x3p`: neither of the two that are published.
         Revision = "revision" "an unknown revision of the format",
         /// `.x3p`: the heights lie elsewhere in the archive than main.xml says.

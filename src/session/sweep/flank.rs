@@ -84,6 +84,18 @@ impl Rows {
         let column = |name: &str| self.column(sweep, name).unwrap_or_default();
         let loads = sweep.loads();
         let [way, speed, share] = ["path_m", "speed_rpm", "time_share"].map(column);
+        let speeds_m_s = ["u_1_m_s", "u_2_m_s"].map(column);
+        let life = sweep.base_scene().ok().and_then(|scene| scene.life);
+        let Some(life) = life else {
+            return Vec::new();
+        };
+        let own_share = |case: usize, body: usize| match life.cycles {
+            CycleBasis::Damage => {
+                let both = [0, 1].map(|body: usize| speeds_m_s[body][case]);
+                both[body] / both[0].max(both[1])
+            }
+            CycleBasis::Global | CycleBasis::Peaks => 1.0,
+        };
         // Of one load, whatever its own columns are called.
         let at = |list: &[f64], case: usize, usual: f64| list.get(case).copied().unwrap_or(usual);
         let pace = |case: usize| at(&share, case, 1.0) * at(&speed, case, tooth.speed_rpm);
@@ -94,7 +106,11 @@ impl Rows {
             let worn = |flank: usize| -> Option<Vec<f64>> {
                 let turns = [1.0, ratio][flank];
                 let of = |&case: &usize| {
-                    Some(pace(case) / pace_of_all / (turns * self.own(sweep, case, flank)?))
+                    Some(
+                        pace(case)
+                            / pace_of_all
+                            / (turns * self.own(case, flank, own_share(case, flank))?),
+                    )
                 };
                 cases.iter().map(of).collect()
             };
@@ -121,17 +137,12 @@ impl Rows {
         if is_known { found } else { Vec::new() }
     }
 
-    /// N_i of a case in own loading cycles, over those of the base scene's smooth contact.
-    fn own(&self, sweep: &Sweep, case: usize, body: usize) -> Option<f64> {
+    /// N_i of a case in own loading cycles, over those of the base scene's smooth contact; `share`: the own speed over the greater
+    /// one, where lives are in loading cycles of the faster body.
+    fn own(&self, case: usize, body: usize, share: f64) -> Option<f64> {
         let found = &self.records[case].summary;
-        let life = [found.life_body_1, found.life_body_2][body]? * found.load_factor?;
-        let speeds = ["u_1_m_s", "u_2_m_s"].map(|name| self.column(sweep, name));
-        let [one, two] = speeds.map(|list| list.map_or(1.0, |list| list[case]));
-        let own = [one, two][body] / one.max(two);
-        Some(match sweep.base_scene().ok()?.life?.cycles {
-            CycleBasis::Damage => life * own,
-            CycleBasis::Global | CycleBasis::Peaks => life,
-        })
+        let life = [found.life_body_1, found.life_body_2][body]?;
+        Some(life * found.load_factor? * share)
     }
 
     /// N_0.

@@ -7,8 +7,8 @@
 //! The file of valid points has one bit a point, the lowest of a byte first, 1 for valid (openGPS's `ValidBuffer`). Lengths
 //! are in m. Elements are known by their place below the root, whatever its name and their namespaces. In a `DataList`
 //! a `Datum` is its text behind the last semicolon; an empty one is missing. Some programs multiply F and D by the
-//! increment of z, others do not: one other than 1 is refused. MD5 sums are not compared, for many
-//! programs write wrong ones; the archive's own sums are. Dates are not read. The layout was checked against openGPS and surfalize.
+//! increment of z, others do not: one other than 1 is refused. An MD5 sum that is not that of main.xml is
+//! named and no more, for many programs write wrong ones; the archive's own sums are checked. Dates are not read. The layout was checked against openGPS and surfalize.
 
 use std::io::{BufReader, Cursor, Read};
 
@@ -106,8 +106,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Refusal> {
     if !folder.is_empty() {
         main.defects.add(FileDefect::Folder);
     }
-    if find(&archive, folder, "md5checksum.hex").is_none() {
-        main.defects.add(FileDefect::NoChecksum);
+    match find(&archive, folder, "md5checksum.hex") {
+        None => main.defects.add(FileDefect::NoChecksum),
+        Some((sum, _)) if is_sum_of(&mut archive, &sum, &place)? => {}
+        Some(_) => main.defects.add(FileDefect::WrongChecksum),
     }
     main.check()?;
     let [columns, rows] = main.sides()?;
@@ -188,6 +190,15 @@ fn part(archive: &mut Archive, name: &str, most: u64) -> Result<Vec<u8>, Refusal
         .read_to_end(&mut bytes)
         .map_err(|error| broken(error.to_string()))?;
     Ok(bytes)
+}
+
+/// Whether a file of the archive begins with the MD5 sum of another, as `md5sum` writes it.
+fn is_sum_of(archive: &mut Archive, sum: &str, of: &str) -> Result<bool, Refusal> {
+    let said = part(archive, sum, LONGEST_TEXT as u64)?;
+    let said = String::from_utf8_lossy(&said).to_ascii_lowercase();
+    let said = said.split_whitespace().next().unwrap_or_default();
+    let bytes = part(archive, of, LARGEST_PART)?;
+    Ok(format!("{:x}", md5::compute(bytes)) == said.trim_start_matches('\\'))
 }
 
 /// Text whose signs beyond ASCII are question marks: none stands in an element that counts, and comments come in
