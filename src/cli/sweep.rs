@@ -260,8 +260,17 @@ fn told(sweep: &Sweep, rows: &Rows, table: &Path, pictures: &[String]) -> String
     text
 }
 
-/// The place of a tooth that lives shortest.
+/// The place of a tooth that lives shortest, or the life of a bearing's ring.
 fn flank_line(sweep: &Sweep, rows: &Rows) -> String {
+    let hours =
+        |hours: Option<f64>| hours.map_or_else(String::new, |hours| format!(", {hours:.3e} hours"));
+    if let Some(ring) = rows.ring(sweep) {
+        return format!(
+            "life of the inner ring: {:.3e} turns over the loading cycles of the base scene's smooth contact{}\n",
+            ring.turns,
+            hours(ring.hours)
+        );
+    }
     let places = rows.flank(sweep);
     let known = places
         .iter()
@@ -269,14 +278,12 @@ fn flank_line(sweep: &Sweep, rows: &Rows) -> String {
     let Some((place, (flank, turns))) = known.min_by(|a, b| a.1.1.total_cmp(&b.1.1)) else {
         return String::new();
     };
-    let hours = place
-        .hours
-        .map_or_else(String::new, |hours| format!(", {hours:.3e} hours"));
     format!(
         "shortest life of the tooth: {} {:.2} mm from A, {turns:.3e} turns of the pinion over the loading cycles of the \
-         base scene's smooth contact{hours}\n",
+         base scene's smooth contact{}\n",
         ["pinion", "wheel"][flank],
-        1e3 * place.path_m
+        1e3 * place.path_m,
+        hours(place.hours)
     )
 }
 

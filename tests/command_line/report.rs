@@ -168,6 +168,48 @@ fn both_flanks_live_by_miner_s_sum() {
     }
 }
 
+/// A ring turns under its balls: by hand from the table. Z = 8, D/d = 17.462/72.5, so 4.9634 balls a turn.
+#[test]
+fn a_ring_lives_by_miner_s_sum_round_its_zone() {
+    let root = tempfile::tempdir().unwrap();
+    let root = root.path();
+    let race = asperity(root, &["sweep", "bearing_race", "--show", "file"]);
+    let text = String::from_utf8(race.stdout).unwrap();
+    let points = text.lines().filter(|line| !line.starts_with("points"));
+    let text = points.collect::<Vec<_>>().join("\n");
+    let set = "\n[set]\ngrid.nodes = 65\nlife.calibration_cycles = 1e8\nlife.calibration_pressure_pa = 2e9\n\
+               life.iso_load_ratio = 1.0\n";
+    let text = text.replacen("[race]", "[race]\npoints = 3", 1);
+    std::fs::write(root.join("race.toml"), format!("{text}{set}")).unwrap();
+    let done = asperity(root, &["sweep", "race.toml", "--out", "race"]);
+    assert!(matches!(done.status.code(), Some(0 | 2)), "{done:?}");
+    let table = rows(&root.join("race/table.csv"));
+    let damage: Vec<f64> = table
+        .iter()
+        .map(|row| 1.0 / number(row, "life_common"))
+        .collect();
+    let way = number(&table[1], "path_deg") - number(&table[0], "path_deg");
+    let sum = way / 360.0 * (0.5 * damage[0] + damage[1] + 0.5 * damage[2]);
+    let turns = 1.0 / (4.9634 * sum);
+    let hours = turns * number(&table[0], "life_cycles")
+        / number(&table[0], "life_common")
+        / (60.0 * 3000.0);
+    let told = String::from_utf8_lossy(&done.stdout).into_owned();
+    let line = told
+        .lines()
+        .find(|line| line.contains("inner ring"))
+        .unwrap();
+    let found: Vec<f64> = line
+        .split([' ', ','])
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    assert!((found[0] / turns - 1.0).abs() < 1e-3, "{line}: {turns}");
+    assert!((found[1] / hours - 1.0).abs() < 1e-3, "{line}: {hours}");
+    assert_eq!(asperity(root, &["report", "race"]).status.code(), Some(0));
+    let page = std::fs::read_to_string(root.join("race/report.html")).unwrap();
+    assert!(page.contains("inner ring") && page.contains("ISO 281"));
+}
+
 #[test]
 fn a_load_said_twice_is_one_load() {
     let root = tempfile::tempdir().unwrap();

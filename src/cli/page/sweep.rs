@@ -178,6 +178,13 @@ fn in_short(sweep: &Sweep, rows: &Rows, flank: &[FlankLife], worst: Option<usize
             p.head { b { "because" } (told.because) }
             p.head { b { "trust" } (told.trust) }
         }
+        @if let Some(ring) = rows.ring(sweep) {
+            p.head {
+                b { "inner ring" } (sig(ring.turns, 3)) " turns over the loading cycles of the base scene's smooth contact"
+                @if let Some(hours) = ring.hours { ", " (sig(hours, 3)) " hours" }
+                ", by Miner's sum round the loaded zone: 1/R = Z(1 + D/d)/2 ∫dψ/2πN"
+            }
+        }
         @if let Some((hours, at)) = hours {
             p.head { b { "in time" } (sig(hours, 3)) " hours, " (sig(1e3 * at.path_m, 3)) " mm from A, at the calibration's survival" }
         }

@@ -55,6 +55,12 @@ impl BallRace {
         0.25 * self.speed_rad_s * self.pitch_diameter_m * (1.0 - gamma * gamma)
     }
 
+    /// Balls that a point of the inner ring meets in a turn of it: Z (1 + γ)/2.
+    pub fn balls_a_turn(&self) -> f64 {
+        let gamma = self.ball_diameter_m / self.pitch_diameter_m;
+        0.5 * f64::from(self.balls) * (1.0 + gamma)
+    }
+
     /// Load of the ball at an angle from the load's line, N; 0 beyond a quarter turn.
     pub fn load_n(&self, angle_rad: f64) -> f64 {
         let most = self.radial_load_n / (f64::from(self.balls) * STRIBECK);

@@ -62,17 +62,6 @@ impl Sweep {
             .map(|(from, to)| from..to)
             .collect()
     }
-
-    /// What sets the load of a case apart from the others of its spectrum, in words; empty: there is one.
-    pub(super) fn load_words(&self, case: usize) -> String {
-        let of = |name| Some(path::column(&self.path, name)?[case]);
-        match [of("torque_n_m"), of("speed_rpm"), of("time_share")] {
-            [Some(torque), Some(speed), Some(share)] => {
-                format!("{torque} N m, {speed} rpm, {} % of the time", 100.0 * share)
-            }
-            _ => String::new(),
-        }
-    }
 }
 
 impl Rows {
@@ -146,7 +135,7 @@ impl Rows {
     }
 
     /// N_0.
-    fn smooth_cycles(&self, case: usize) -> Option<f64> {
+    pub(super) fn smooth_cycles(&self, case: usize) -> Option<f64> {
         let found = &self.records[case].summary;
         Some(found.life_cycles? / found.life_common?)
     }

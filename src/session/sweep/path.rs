@@ -31,6 +31,7 @@ use toml::{Table, Value};
 
 use super::axis::VariedKey;
 use super::reader::{TableReader, both, shown};
+use super::ring::Ring;
 use asperity_engine::physics::gear::{GearPair, GearTeeth, LoadSharing};
 use asperity_engine::physics::race_and_cam::{BallRace, FlatFollower};
 use asperity_engine::scene::{ContactKind, Scene, SceneError, Tooth};
@@ -84,6 +85,8 @@ pub(super) struct Path {
     pub(super) points: Vec<PathPoint>,
     /// The tooth of a gear.
     pub(super) tooth: Option<Tooth>,
+    /// The inner ring of a race.
+    pub(super) ring: Option<Ring>,
 }
 
 /// A point under way: where it is, and what the scene gets.
@@ -106,7 +109,7 @@ pub(super) fn read(kind: PathKind, table: &Table, scene: &Scene) -> Result<Path,
         return Err(SceneError::value("contact.kind", is, must));
     }
     let mut keys = TableReader::new(kind.name(), table);
-    let mut tooth = None;
+    let (mut tooth, mut ring) = (None, None);
     let stops = match kind {
         PathKind::Gear => {
             let n = keys.whole("points", POINTS, 17);
@@ -118,7 +121,11 @@ pub(super) fn read(kind: PathKind, table: &Table, scene: &Scene) -> Result<Path,
             }
             stops
         }
-        PathKind::Race => race(&mut keys)?,
+        PathKind::Race => {
+            let (stops, own) = race(&mut keys)?;
+            ring = Some(own);
+            stops
+        }
         PathKind::Cam => cam(&mut keys)?,
     };
     let axis = |k: usize, name: &str| VariedKey {
@@ -135,6 +142,7 @@ pub(super) fn read(kind: PathKind, table: &Table, scene: &Scene) -> Result<Path,
             })
             .collect(),
         tooth,
+        ring,
     })
 }
 
@@ -330,7 +338,7 @@ fn gear_pair(keys: &mut TableReader) -> Result<(GearPair, Vec<SpectrumStep>), Sc
     Ok((steps[0].load(pair), steps))
 }
 
-fn race(keys: &mut TableReader) -> Result<Vec<PathStop>, SceneError> {
+fn race(keys: &mut TableReader) -> Result<(Vec<PathStop>, Ring), SceneError> {
     let race = BallRace {
         ball_diameter_m: keys.number("ball_diameter_m", 1e-4..=1.0, "m"),
         pitch_diameter_m: keys.number("pitch_diameter_m", 1e-3..=10.0, "m"),
@@ -351,7 +359,11 @@ fn race(keys: &mut TableReader) -> Result<Vec<PathStop>, SceneError> {
     }
     let zone = zone.unwrap_or(75.0);
     let [rx, ry] = race.radii_m();
-    Ok((0..n)
+    let ring = Ring {
+        balls_a_turn: race.balls_a_turn(),
+        speed_rpm: race.speed_rad_s / RPM,
+    };
+    let stops = (0..n)
         .map(|k| {
             let angle = zone * (2.0 * k as f64 / (n - 1) as f64 - 1.0);
             PathStop {
@@ -364,7 +376,8 @@ fn race(keys: &mut TableReader) -> Result<Vec<PathStop>, SceneError> {
                 ],
             }
         })
-        .collect())
+        .collect();
+    Ok((stops, ring))
 }
 
 fn cam(keys: &mut TableReader) -> Result<Vec<PathStop>, SceneError> {

@@ -203,7 +203,7 @@ fn lines(sweep: &Sweep) -> Vec<Line> {
     let loads = sweep.loads();
     if loads.len() > 1 {
         let line = |cases: std::ops::Range<usize>| Line {
-            name: sweep.load_words(cases.start),
+            name: load_words(sweep, cases.start),
             cases,
         };
         return loads.into_iter().take(MOST_CURVES).map(line).collect();
@@ -226,6 +226,17 @@ fn lines(sweep: &Sweep) -> Vec<Line> {
         }
     };
     starts.map(line).collect()
+}
+
+/// What sets the load of a case apart from the others of its spectrum, in words; empty: there is one.
+fn load_words(sweep: &Sweep, case: usize) -> String {
+    let of = |name| Some(super::path::column(&sweep.path, name)?[case]);
+    match [of("torque_n_m"), of("speed_rpm"), of("time_share")] {
+        [Some(torque), Some(speed), Some(share)] => {
+            format!("{torque} N m, {speed} rpm, {} % of the time", 100.0 * share)
+        }
+        _ => String::new(),
+    }
 }
 
 fn figure(sweep: &Sweep, rows: &Rows, along: &CurveAxis, lines: &[Line], plot: &Plot) -> Figure {

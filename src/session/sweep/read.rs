@@ -107,6 +107,7 @@ fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError
         chain: read_chain(chain)?,
         path: Vec::new(),
         tooth: None,
+        ring: None,
         base: read_base(scene, folder)?,
         set: set.map_or_else(|| Ok(Vec::new()), |set| settings("set", set))?,
         text: String::new(),
@@ -125,7 +126,8 @@ fn read_sweep(text: &str, name: &str, folder: &Path) -> Result<Sweep, SceneError
         }
         (None, [(kind, table)]) => {
             let path = path::read(*kind, table, &sweep.base_scene()?)?;
-            (sweep.axes, sweep.path, sweep.tooth) = (path.axes, path.points, path.tooth);
+            (sweep.axes, sweep.path) = (path.axes, path.points);
+            (sweep.tooth, sweep.ring) = (path.tooth, path.ring);
             sweep.combine = Combine::List;
         }
         (Some(_), [_, ..]) | (None, [] | [_, _, ..]) => {

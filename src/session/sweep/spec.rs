@@ -26,6 +26,7 @@ use super::axis::VariedKey;
 use super::error::SweepError;
 use super::path::{PathKind, PathPoint};
 use super::reader::shown;
+use super::ring::Ring;
 use asperity_engine::scene::{ContactKind, Override, Scene, SceneError, Tooth};
 
 /// How several axes combine.
@@ -64,6 +65,8 @@ pub struct Sweep {
     pub path: Vec<PathPoint>,
     /// The tooth that a path of a gear goes along.
     pub(super) tooth: Option<Tooth>,
+    /// The ring that a path of a race goes round.
+    pub(super) ring: Option<Ring>,
     /// The scene's text.
     pub(super) base: String,
     /// Keys set in every case.
