@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use asperity_engine::math::number::sig;
 use asperity_engine::observe::{Began, Observer as _, Overwrite, RunContext};
 use asperity_picture::export::{Export, Format, PrintSize, TakenAs};
 use asperity_recorder::RecordedFrames;
@@ -23,27 +24,44 @@ const PICTURES: [&str; 6] = [
     "damage_2",
 ];
 
-/// The page of a recording, of its last picture.
+/// The page of a recording: what each of its runs came to, with its last pictures.
 pub(super) fn page(file: &Path) -> Result<Markup, Failure> {
     let read = RecordedFrames::read_all(file);
-    let mut runs = read.map_err(|error| Failure::input(miette::miette!("{error}")))?;
-    let frames = runs.remove(0);
-    super::super::export::tell_where_it_breaks_off(file, &frames);
+    let runs = read.map_err(|error| Failure::input(miette::miette!("{error}")))?;
+    let titles: Vec<&str> = runs.iter().map(|run| title(run)).collect();
+    let title = titles.join("; ");
+    let steps: usize = runs.iter().map(RecordedFrames::n_steps).sum();
+    let made = format!("{steps} steps of {}", file.display());
+    let mut parts = Vec::new();
+    for frames in &runs {
+        super::super::export::tell_where_it_breaks_off(file, frames);
+        parts.push(one(frames, runs.len() > 1)?);
+    }
+    Ok(shell(
+        &title,
+        &made,
+        &html! { @for part in &parts { (part) } },
+    ))
+}
+
+fn title(run: &RecordedFrames) -> &str {
+    match run.scene.title.as_str() {
+        "" => "A run",
+        title => title,
+    }
+}
+
+/// One run, under a title of its own where it is not the only one.
+fn one(frames: &RecordedFrames, is_named: bool) -> Result<Markup, Failure> {
     let step = frames.steps().last().map_or(0, |frame| frame.step);
-    let drawn = pictures(&frames)?;
-    let body = html! {
+    let drawn = pictures(frames)?;
+    Ok(html! {
+        @if is_named { h2 { (title(frames)) ", S = " (sig(frames.scene.motion.slide_roll, 3)) } }
         (markdown(frames.text(step)))
         (figures(&drawn))
         h2 { "What runs" }
         (facts(&operating::rows(&frames.scene)))
-    };
-    let title = if frames.scene.title.is_empty() {
-        "A run"
-    } else {
-        &frames.scene.title
-    };
-    let made = format!("{} steps of {}", frames.n_steps(), file.display());
-    Ok(shell(title, &made, &body))
+    })
 }
 
 /// What stood beside a step, as HTML. It comes of a file: what it has of HTML itself is shown as it is written,
@@ -67,7 +85,9 @@ fn pictures(frames: &RecordedFrames) -> Result<Vec<String>, Failure> {
     };
     let failed =
         |error: std::io::Error| Failure::input(miette::miette!("no room for pictures: {error}"));
-    let folder = std::env::temp_dir().join(format!("asperity_report_{}", std::process::id()));
+    // A name that nobody can have taken before; it goes with its files, however this ends.
+    let folder = tempfile::tempdir().map_err(failed)?;
+    let folder = folder.path();
     let print = PrintSize {
         width_mm: 120.0,
         dpi: 150.0,
@@ -81,7 +101,7 @@ fn pictures(frames: &RecordedFrames) -> Result<Vec<String>, Failure> {
         program: frames.program.clone(),
         began: Began::FromScene,
     };
-    let export = Export::create(&folder, Overwrite::Replace, &[Format::Svg])?;
+    let export = Export::create(folder, Overwrite::Replace, &[Format::Svg])?;
     let mut export = export.of(&names, print).alone(true);
     export.begin(&context)?;
     for before in frames.steps().take_while(|before| before.step < frame.step) {
@@ -96,6 +116,5 @@ fn pictures(frames: &RecordedFrames) -> Result<Vec<String>, Failure> {
             drawn.push(std::fs::read_to_string(path).map_err(failed)?);
         }
     }
-    std::fs::remove_dir_all(&folder).map_err(failed)?;
     Ok(drawn)
 }

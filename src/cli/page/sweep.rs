@@ -323,16 +323,26 @@ fn sources(sweep: &Sweep, rows: &Rows) -> Markup {
     let told = SOURCES
         .iter()
         .filter(|(name, ..)| name.is_empty() || has(name));
+    // Of the scene's own model: several have each its own source.
+    let life = rows.records.iter().find_map(|record| {
+        let s = &record.summary;
+        Some([
+            s.life_model.as_ref()?,
+            s.life_count.as_ref()?,
+            s.life_basis.as_ref()?,
+        ])
+    });
     html! {
         h2 { "Formulas and sources" }
         table.words {
             @for (_, what, formula, source) in told { tr { td { b { (what) } } td { (formula) } td { (source) } } }
+            @if let Some([model, count, basis]) = life { tr { td { b { "life" } } td { (model) ", " (count) } td { (basis) } } }
         }
     }
 }
 
 /// Column without which the line is left out, what it is, formula, source.
-const SOURCES: [(&str, &str, &str, &str); 14] = [
+const SOURCES: [(&str, &str, &str, &str); 13] = [
     (
         "rho_1_m",
         "tooth",
@@ -372,7 +382,7 @@ const SOURCES: [(&str, &str, &str, &str); 14] = [
     (
         "lambda_gf",
         "λ GF",
-        "h/Ra, h = 1600 ρ G^0.6 U^0.7 W^−0.13 S^0.22 µm, Ra = (Ra₁ + Ra₂)/2; without factors of dynamics and application",
+        "h/Ra, h = 1600 ρ G^0.6 U^0.7 W^−0.13 S^0.22 µm, Ra = (Ra₁ + Ra₂)/2; with [heat] at the viscosity of Blok's flash temperature; without factors of dynamics and application",
         "ISO/TS 6336-22 as quoted in Procedia Struct. Integrity 57 (2024) 199",
     ),
     (
@@ -380,12 +390,6 @@ const SOURCES: [(&str, &str, &str, &str); 14] = [
         "flash, Blok",
         "1.1115 Q/(√2a Σ√(kρcU))",
         "Blok 1937, with the friction that was simulated",
-    ),
-    (
-        "life_relative",
-        "life",
-        "over that of the smooth, frictionless contact at its own load; ln 1/Ps = C (nN)^e ∫σ^ce dV",
-        "Zaretsky 1994; cycles as Pu, Zhu, Wang & Wang 2016, or each by its damage",
     ),
     (
         "life_common",

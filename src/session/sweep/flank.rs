@@ -78,10 +78,13 @@ impl Rows {
         let Some(life) = life else {
             return Vec::new();
         };
-        let own_share = |case: usize, body: usize| match life.cycles {
+        let lives = ["life_body_1", "life_body_2"].map(column);
+        let load_factor = column("load_factor");
+        // A body's own loading cycles over those in which its life is counted.
+        let own = |case: usize, body: usize| match life.cycles {
             CycleBasis::Damage => {
-                let both = [0, 1].map(|body: usize| speeds_m_s[body][case]);
-                both[body] / both[0].max(both[1])
+                let [one, two] = [speeds_m_s[0][case], speeds_m_s[1][case]];
+                [one, two][body] / one.max(two)
             }
             CycleBasis::Global | CycleBasis::Peaks => 1.0,
         };
@@ -92,30 +95,26 @@ impl Rows {
         let ratio = f64::from(tooth.wheel_teeth) / f64::from(tooth.pinion_teeth);
         let of_place = |k: usize| {
             let cases: Vec<usize> = loads.iter().map(|load| load.start + k).collect();
-            let worn = |flank: usize| -> Option<Vec<f64>> {
-                let turns = [1.0, ratio][flank];
-                let of = |&case: &usize| {
-                    Some(
-                        pace(case)
-                            / pace_of_all
-                            / (turns * self.own(case, flank, own_share(case, flank))?),
-                    )
+            // What a turn of the pinion takes, by each load.
+            let taken = [0, 1].map(|flank: usize| -> Vec<f64> {
+                let turns = |case: usize| {
+                    let cycles = lives[flank][case] * load_factor[case] * own(case, flank);
+                    [1.0, ratio][flank] * cycles
                 };
-                cases.iter().map(of).collect()
-            };
-            let worn = [worn(0), worn(1)];
-            let turns = worn
-                .clone()
-                .map(|list| Some(1.0 / list?.iter().sum::<f64>()));
+                let part = |&case: &usize| pace(case) / pace_of_all / turns(case);
+                cases.iter().map(part).collect()
+            });
+            let turns = |list: &Vec<f64>| Some(1.0 / list.iter().sum::<f64>());
             let mut life = FlankLife {
                 path_m: way[cases[0]],
-                turns,
+                turns: taken
+                    .each_ref()
+                    .map(|list| turns(list).filter(|turns| !turns.is_nan())),
                 hours: None,
                 shares: Vec::new(),
             };
             if let Some((flank, turns)) = life.weaker() {
-                let all = |list: &Vec<f64>| list.iter().map(|part| part * turns).collect();
-                life.shares = worn[flank].as_ref().map_or_else(Vec::new, all);
+                life.shares = taken[flank].iter().map(|part| part * turns).collect();
                 let smooth = cases.iter().find_map(|&case| self.smooth_cycles(case));
                 life.hours = smooth.map(|cycles| turns * cycles / (60.0 * pace_of_all));
             }
@@ -124,14 +123,6 @@ impl Rows {
         let found: Vec<FlankLife> = (0..loads[0].len()).map(of_place).collect();
         let is_known = found.iter().any(|place| place.weaker().is_some());
         if is_known { found } else { Vec::new() }
-    }
-
-    /// N_i of a case in own loading cycles, over those of the base scene's smooth contact; `share`: the own speed over the greater
-    /// one, where lives are in loading cycles of the faster body.
-    fn own(&self, case: usize, body: usize, share: f64) -> Option<f64> {
-        let found = &self.records[case].summary;
-        let life = [found.life_body_1, found.life_body_2][body]?;
-        Some(life * found.load_factor? * share)
     }
 
     /// N_0.
