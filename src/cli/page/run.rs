@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use asperity_engine::math::number::sig;
 use asperity_engine::observe::{Began, Observer as _, Overwrite, RunContext};
 use asperity_picture::export::{Export, Format, PrintSize, TakenAs};
 use asperity_recorder::RecordedFrames;
@@ -28,14 +27,14 @@ const PICTURES: [&str; 6] = [
 pub(super) fn page(file: &Path) -> Result<Markup, Failure> {
     let read = RecordedFrames::read_all(file);
     let runs = read.map_err(|error| Failure::input(miette::miette!("{error}")))?;
-    let titles: Vec<&str> = runs.iter().map(|run| title(run)).collect();
+    let titles: Vec<&str> = runs.iter().map(title).collect();
     let title = titles.join("; ");
     let steps: usize = runs.iter().map(RecordedFrames::n_steps).sum();
     let made = format!("{steps} steps of {}", file.display());
     let mut parts = Vec::new();
     for frames in &runs {
         super::super::export::tell_where_it_breaks_off(file, frames);
-        parts.push(one(frames, runs.len() > 1)?);
+        parts.push(one(frames)?);
     }
     Ok(shell(
         &title,
@@ -51,12 +50,11 @@ fn title(run: &RecordedFrames) -> &str {
     }
 }
 
-/// One run, under a title of its own where it is not the only one.
-fn one(frames: &RecordedFrames, is_named: bool) -> Result<Markup, Failure> {
+/// One run; what stood beside it begins with what sets it apart from the others.
+fn one(frames: &RecordedFrames) -> Result<Markup, Failure> {
     let step = frames.steps().last().map_or(0, |frame| frame.step);
     let drawn = pictures(frames)?;
     Ok(html! {
-        @if is_named { h2 { (title(frames)) ", S = " (sig(frames.scene.motion.slide_roll, 3)) } }
         (markdown(frames.text(step)))
         (figures(&drawn))
         h2 { "What runs" }
