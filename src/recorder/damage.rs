@@ -29,8 +29,6 @@ const WIDTH: f64 = 2.0;
 const HEIGHT: f64 = 1.5;
 /// Depth that is shown, in a: twice that of the maximum shear stress. Below there is no damage to speak of.
 const DEPTH: f64 = 1.5;
-/// Damage less than this many powers of ten below the reference is as good as none.
-const LEAST: f32 = -12.0;
 
 /// The damage maps of both bodies: of a crossing, and of all cycles.
 #[derive(Default)]
@@ -188,7 +186,7 @@ impl Block {
             return;
         }
         self.last.clone_from(&damage.damage);
-        let powers = powers(damage, self.depths.len(), LEAST);
+        let powers = powers(damage, self.depths.len());
         self.raster.log(stream, Field::TopDown(&powers));
         let not_crossed = powers.iter().map(|power| u8::from(power.is_nan()));
         classes::log(stream, &cover(self.entity), not_crossed.collect());
@@ -227,8 +225,10 @@ impl Block {
     }
 }
 
-/// log10 D depth by depth down to so many depths, `floor` at least; NaN in columns that have not crossed.
-pub(crate) fn powers(block: &DamageBlock, shown: usize, floor: f32) -> Vec<f32> {
+/// log10 D depth by depth down to so many depths, at least the lower end of the colours (the viewer in a browser paints what lies
+/// below its range as far above the range's end); NaN in columns that have not crossed.
+pub(crate) fn powers(block: &DamageBlock, shown: usize) -> Vec<f32> {
+    let floor = -DECADES as f32;
     let (columns, depths) = (block.columns, block.depths_m.len());
     let mut powers = vec![f32::NAN; columns * shown];
     for (column, damage) in block.damage.chunks_exact(depths.max(1)).enumerate() {
@@ -263,4 +263,23 @@ fn cover(entity: &str) -> String {
 
 fn worst_point(entity: &str) -> String {
     format!("{entity}/worst_point")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is stored never lies below the range of the colours, however little damage there is; what has not crossed is no number.
+    #[test]
+    fn nothing_is_stored_below_the_colours() {
+        let block = DamageBlock {
+            columns: 2,
+            depths_m: [0.0, 1e-5, 2e-5].into(),
+            damage: vec![1e-30, 1e-2, 1e2, 0.0, 0.0, 0.0],
+            ..DamageBlock::default()
+        };
+        let found = powers(&block, 3);
+        assert_eq!([found[0], found[2], found[4]], [-3.0, -2.0, 2.0]);
+        assert!([found[1], found[3], found[5]].iter().all(|v| v.is_nan()));
+    }
 }

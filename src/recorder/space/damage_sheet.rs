@@ -56,7 +56,7 @@ impl SheetShape {
 
     /// Row by row; what has not crossed yet is of the colour behind it.
     fn colours(&self, block: &DamageBlock, tints: &Tints) -> Vec<Color> {
-        let powers = powers(block, self.depths.len(), -DECADES as f32);
+        let powers = powers(block, self.depths.len());
         let colour = |power: f32| match power {
             power if power.is_nan() => packed(BACKGROUND),
             power => tints.colour(0.5 + 0.5 * power / DECADES as f32, 1.0),
