@@ -386,3 +386,49 @@ fn the_error_of_an_aged_life_is_of_aged_meshes() {
     let error = aged.error_ln_life.unwrap();
     assert!(error >= apart, "{error} {apart}");
 }
+
+/// Most that body 1, whose ridges are alike across, lies below its own rim, m.
+fn worn_1_m(frame: &Frame) -> f64 {
+    let rows = || frame.roughness_1_m.chunks_exact(frame.nx);
+    let rim = rows().next().unwrap();
+    let depths = rows().flat_map(|row| rim.iter().zip(row));
+    depths
+        .map(|(rim, here)| f64::from(rim - here))
+        .fold(0.0, f64::max)
+}
+
+/// Who turns a knob after surfaces have aged looks at the same worn surfaces on every mesh: the finer one does not begin with
+/// new ones at what was turned.
+#[test]
+fn a_knob_turned_after_ageing_leaves_surfaces_worn_on_every_mesh() {
+    let scene = scene("demonstration_quick", &[&SMALL[..], &WORN].concat());
+    let session = Session::start(request(&scene, Ending::OnStop, Vec::new())).unwrap();
+    settle(&session);
+    session.handle.send(Command::Set(Knob::SlideRoll, 0.1));
+    let mut worn: Vec<(usize, f64, f64)> = Vec::new();
+    while !session.is_finished() {
+        let settled = session.handle.settled();
+        let turned = settled.filter(|one| (one.frames[0].metrics.slide_roll - 0.1).abs() < 1e-9);
+        if let Some(settled) = turned {
+            let frame = &settled.frames[0];
+            if worn.last().is_none_or(|last| last.0 != frame.nx) {
+                worn.push((frame.nx, frame.cycles.unwrap(), worn_1_m(frame)));
+            }
+            if settled.is_last {
+                break;
+            }
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    session.handle.send(Command::Stop);
+    println!("nodes, cycles, worn off body 1 (m): {worn:?}");
+    let [coarse, fine] = worn[..] else {
+        panic!("{worn:?}")
+    };
+    assert_eq!([coarse.0, fine.0], [65, 129]);
+    assert_eq!([coarse.1, fine.1], [scene.age.unwrap().cycles; 2]);
+    assert!(
+        coarse.2 > 1e-8 && (fine.2 / coarse.2 - 1.0).abs() < 0.1,
+        "{worn:?}"
+    );
+}

@@ -26,6 +26,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::worn::place_in;
 use crate::saved::saved;
 
 /// Rate of a place that nothing has crossed yet.
@@ -93,6 +94,39 @@ impl Pits {
             worst: (0, 0),
             greatest: 0.0,
         }
+    }
+
+    /// What the same material has suffered by the columns and depths of a coarser mesh: that of the nearest column.
+    /// `depth`: what is worn where the jump began, film units.
+    pub(super) fn take_over(&mut self, coarser: &Self, depth: impl Fn(usize) -> f64) {
+        let (all, n, other) = (self.depths.len(), self.pitted.len(), coarser.pitted.len());
+        let nearest = |column: usize, n: usize, other: usize| {
+            let place = place_in(column, n, other) + 0.5 * (other - 1) as f64;
+            (place.round() as i64).rem_euclid(other as i64) as usize
+        };
+        for column in 0..n {
+            let near = nearest(column, n, other);
+            let theirs = near * coarser.depths.len()..(near + 1) * coarser.depths.len();
+            let fields = [
+                (&mut self.damage, &coarser.damage),
+                (&mut self.rate, &coarser.rate),
+                (&mut self.now, &coarser.now),
+            ];
+            for (own, other) in fields {
+                for (k, own) in own[column * all..][..all].iter_mut().enumerate() {
+                    *own = coarser.read(&other[theirs.clone()], self.depths[k]);
+                }
+            }
+            self.worn[column] = depth(column) * self.unit;
+            self.pitted[column] = coarser.pitted[near];
+            self.unworn[column] = coarser.unworn[near];
+        }
+        let same = |depth: &f64| *depth < coarser.depths[coarser.worst.1];
+        self.worst = (
+            nearest(coarser.worst.0, other, n),
+            self.depths.partition_point(same).min(all - 1),
+        );
+        self.greatest = coarser.greatest;
     }
 
     /// Takes the rates of a block from `count`, which fills in damage over that of the smooth contact's worst point by place

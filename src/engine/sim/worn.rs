@@ -173,6 +173,22 @@ impl Worn {
         }
     }
 
+    /// The surfaces as they are on a coarser mesh of the same scene: from that cycle on they age here.
+    pub(super) fn take_over(&mut self, coarser: &Self) {
+        for pair in self.skins.iter_mut().zip(&coarser.skins) {
+            if let (Some(own), Some(other)) = pair {
+                own.take_over(other);
+            }
+        }
+        for (pair, skin) in self.pits.iter_mut().zip(&coarser.pits).zip(&self.skins) {
+            if let (Some(own), Some(other)) = pair {
+                own.take_over(other, |column| base_of(skin.as_ref(), column));
+            }
+        }
+        self.age.clone_from(&coarser.age);
+        self.forget_block();
+    }
+
     /// What the material of body `body` has suffered; `None`: nobody knows.
     pub(super) fn known_pits(&self, body: usize) -> Option<&Pits> {
         self.pits[body].as_ref().filter(|pits| pits.is_known())
@@ -413,6 +429,11 @@ fn depth_of(skin: Option<&WornSkin>, column: usize) -> f64 {
     skin.map_or(0.0, |skin| skin.depth[skin.middle * skin.columns + column])
 }
 
+/// The same where the jump began.
+fn base_of(skin: Option<&WornSkin>, column: usize) -> f64 {
+    skin.map_or(0.0, |skin| skin.base[skin.middle * skin.columns + column])
+}
+
 fn greatest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, f64::max)
 }
@@ -434,6 +455,35 @@ impl WornSkin {
             sum: field(),
             volume: 0.0,
         }
+    }
+
+    /// Column by column as heights are read, between the coarser one's rows linear.
+    fn take_over(&mut self, coarser: &Self) {
+        let rows = self.depth.len() / self.columns;
+        let fields = [
+            (&mut self.depth, &coarser.depth),
+            (&mut self.base, &coarser.base),
+            (&mut self.rate, &coarser.rate),
+        ];
+        for (own, other) in fields {
+            for c in 0..self.columns {
+                let (columns, weights) =
+                    around(place_in(c, self.columns, coarser.columns), coarser.columns);
+                let at = |row: usize| -> f64 {
+                    let values = &other[row * coarser.columns..][..coarser.columns];
+                    let pairs = columns.iter().zip(weights);
+                    pairs.map(|(&k, weight)| weight * values[k]).sum()
+                };
+                for j in 0..rows {
+                    let (below, above) = match rows {
+                        1 => (0, 0),
+                        _ => (j / 2, j.div_ceil(2)),
+                    };
+                    own[j * self.columns + c] = (0.5 * (at(below) + at(above))).max(0.0);
+                }
+            }
+        }
+        self.volume = coarser.volume;
     }
 
     /// What one loading cycle takes over what `distance` has taken.
@@ -512,6 +562,11 @@ pub(super) fn ring(grid: &Grid, repeat: Option<f64>) -> (f64, usize) {
         // The same all along: one column.
         Some(_) | None => (1.0, 1),
     }
+}
+
+/// Where column `column` of `n` lies in a ring of `other` columns, in their spacing from its middle.
+pub(super) fn place_in(column: usize, n: usize, other: usize) -> f64 {
+    (column as f64 - 0.5 * (n - 1) as f64) * other as f64 / n as f64
 }
 
 /// The four of `n` columns in a ring around a place, and their weights.

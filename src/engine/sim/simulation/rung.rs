@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! contact     pressure, film and masses of the coarser run, interpolated; H0 and the places of both bodies as they are
-//! skins       what has flowed, at the new columns
+//! skins       what has flowed and what is worn, at the new columns; the damage of the nearest column
 //! reference   the smooth contact, interpolated and made steady on this mesh: first of all, while the rough one waits
 //! settle      1.6 a at U ([`super::follow`]), a steady contact 4 a: what the interpolation disturbed leaves the contact, then
 //!             the passage begins
@@ -52,6 +52,10 @@ pub(super) fn climb(
     state.motion.travelled = lower.motion.travelled;
     if let (Some(own), Some(other)) = (&mut state.yielded, &lower.yielded) {
         own.take_over(&fine, other, &coarse);
+    }
+    if let (Some(own), Some(other)) = (&mut state.worn, &lower.worn) {
+        own.take_over(other);
+        state.ages.clone_from(&lower.ages);
     }
     let at =
         (lower.life.as_ref()).map_or_else(|| conditions(plan, state), |life| life.reference_at);
