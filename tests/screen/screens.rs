@@ -234,6 +234,7 @@ fn many(theme: Theme) -> Vec<App> {
         with(&[Action::Scene]),
         with(&[Action::OperatingPoint]),
         with(&[Action::OperatingPoint, Action::ChooseNext, Action::Type]),
+        with(&[Action::OperatingPoint, Action::OperatingPoint]),
         with(&[Action::Lessons]),
         with(&[Action::Lessons, Action::Enter]),
         with(&[Action::Lessons, Action::Enter, Action::NextBeat]),
@@ -424,6 +425,14 @@ fn an_operating_point_is_typed_judged_and_run() {
             app.apply(Action::Letter(letter));
         }
     };
+    app.apply(Action::OperatingPoint);
+    for (width, height) in [(60, 20), (80, 24), (160, 48)] {
+        let name = format!("as_on_drawings_{width}x{height}");
+        insta::assert_snapshot!(name, text(&app, width, height));
+    }
+    app.apply(Action::OperatingPoint);
+    assert!(!text(&app, 80, 24).contains("as on drawings"), "closed");
+    app.apply(Action::OperatingPoint);
     // The radius along the motion, in mm.
     app.apply(Action::ChooseNext);
     type_in(&mut app, "12.5");

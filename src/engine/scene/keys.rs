@@ -419,10 +419,11 @@ pub fn section(path: &str) -> Option<&'static Section> {
     SECTIONS.iter().find(|section| section.path == path)
 }
 
-/// The key with that full path, such as `motion.slide_roll`.
+/// The key with that full path, such as `motion.slide_roll`; those of drawings are keys, too.
 pub fn find(path: &str) -> Option<&'static Key> {
     let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
-    section(table)?.key(name)
+    let own = section(table).and_then(|section| section.key(name));
+    own.or_else(|| super::drawing::find(path))
 }
 
 /// Every key in full, in printed order.

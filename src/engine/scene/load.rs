@@ -39,9 +39,7 @@ impl std::str::FromStr for Override {
         if key.is_empty() || value.is_empty() {
             return Err(malformed());
         }
-        if keys::find(key).or_else(|| drawing::find(key)).is_none()
-            && (keys::section(key).is_none() || value != "none")
-        {
+        if keys::find(key).is_none() && (keys::section(key).is_none() || value != "none") {
             return Err(match keys::section(key) {
                 Some(_) => {
                     SceneError::value(key, value, "none, or one of its keys, as TABLE.KEY=VALUE")

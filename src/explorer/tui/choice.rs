@@ -3,9 +3,11 @@
 //! told before anything is started.
 
 mod draft;
+mod drawn;
 mod numbers;
 
 pub use self::draft::{Draft, Form};
+pub use self::drawn::Drawn;
 
 use crate::tui::kinds::shifted;
 use crate::tui::units::{Units, sig};
@@ -22,6 +24,8 @@ pub enum Choice {
     Young(usize),
     /// Load, of a line per length.
     Load,
+    /// A number of a drawing.
+    Drawn(Drawn),
     /// Maximum Hertz pressure.
     HertzPressure,
     /// Entrainment speed.
@@ -97,6 +101,7 @@ impl Choice {
             Self::PressureViscosity => "pressure-viscosity",
             Self::Amplitude(0) => "amplitude 1",
             Self::Amplitude(_) => "amplitude 2",
+            Self::Drawn(drawn) => drawn.name(),
         }
     }
 
@@ -104,6 +109,7 @@ impl Choice {
     pub fn shown(self, draft: &Draft, units: Units) -> String {
         match self {
             Self::Preset => draft.preset.unwrap_or("as it is").to_owned(),
+            Self::Drawn(drawn) => drawn.shown(draft, units),
             other => other.of_scene(&draft.scene, units),
         }
     }
@@ -167,6 +173,11 @@ impl Choice {
             Self::Nodes => {
                 let all = [65, 129, 257, 513];
                 scene.grid.nodes = shifted(&all, scene.grid.nodes, by);
+            }
+            Self::Drawn(drawn) => {
+                if let Some(value) = drawn.turned(draft, by) {
+                    draft.put(self, value);
+                }
             }
             number => {
                 if let Some(value) = number.number_turned(scene, by) {
@@ -309,8 +320,12 @@ mod tests {
     }
 
     fn typed(draft: &mut Draft, choice: Choice, text: &str) {
-        draft.turn_to(Form::Point);
-        let place = Choice::POINT.iter().position(|own| *own == choice);
+        draft.turn_to(match choice {
+            Choice::Drawn(_) => Form::Drawing,
+            _ => Form::Point,
+        });
+        let rows = draft.form.rows();
+        let place = rows.iter().position(|own| *own == choice);
         draft.row = place.expect("a row");
         draft.begin_typing();
         draft.typed = Some(text.to_owned());
@@ -386,6 +401,71 @@ mod tests {
         draft.take("fzg_point_b");
         assert_eq!(Choice::Radius(1).keys(&draft.scene), Vec::<String>::new());
         assert_eq!(Choice::Load.keys(&draft.scene), ["load.force_n_per_m"]);
+    }
+
+    /// Both radii, both turns, Ra and a grade, against what a hand makes of them; one without its mate changes nothing and says
+    /// what is missing.
+    #[test]
+    fn numbers_of_drawings_become_those_of_the_scene() {
+        let mut draft = draft();
+        let first = draft.scene.clone();
+        let of = Choice::Drawn;
+        typed(&mut draft, of(Drawn::Temperature), "60");
+        let reason = draft.verdict.clone().err().unwrap_or_default();
+        assert!(reason.contains("lubricant.vg"), "{reason}");
+        assert_eq!(draft.scene, first);
+        for (drawn, text) in [
+            (Drawn::Grade, "220"),
+            (Drawn::Radius(0), "20"),
+            (Drawn::Radius(1), "30"),
+            (Drawn::Across(0), "-50"),
+            (Drawn::MeanHeight(0), "0.1"),
+            (Drawn::Turns(0), "1500"),
+        ] {
+            typed(&mut draft, of(drawn), text);
+        }
+        let reason = draft.verdict.clone().err().unwrap_or_default();
+        assert!(reason.contains("the other body"), "{reason}");
+        typed(&mut draft, of(Drawn::Across(1)), "15");
+        typed(&mut draft, of(Drawn::Turns(1)), "1250");
+        assert!(draft.verdict.is_ok(), "{:?}", draft.verdict);
+        let scene = &draft.scene;
+        let pi = std::f64::consts::PI;
+        let speeds_m_s = [
+            1500.0 / 60.0 * 2.0 * pi * 0.02,
+            1250.0 / 60.0 * 2.0 * pi * 0.03,
+        ];
+        let u_m_s = 0.5 * (speeds_m_s[0] + speeds_m_s[1]);
+        for (found, by_hand) in [
+            (scene.contact.rx_m, 0.012),
+            (
+                scene.contact.ry_m.unwrap_or(0.0),
+                1.0 / (1.0 / 0.015 - 1.0 / 0.05),
+            ),
+            (scene.motion.entrainment_m_s, u_m_s),
+            (
+                scene.motion.slide_roll,
+                (speeds_m_s[1] - speeds_m_s[0]) / u_m_s,
+            ),
+            (scene.body_1.surface.amplitude_m(), pi / 2.0 * 1e-7),
+        ] {
+            assert!((found / by_hand - 1.0).abs() < 1e-9, "{found} {by_hand}");
+        }
+        let oil = scene.lubricant.as_ref().expect("oil");
+        assert_eq!((oil.vg, oil.temperature_c), (Some(220.0), Some(60.0)));
+        // The radii stay where the speed is typed as such, the turns do not; the last change is taken back.
+        typed(&mut draft, Choice::Speed, "2");
+        let shown = |draft: &Draft, drawn: Drawn| of(drawn).shown(draft, Units::default());
+        assert_eq!(shown(&draft, Drawn::Turns(0)), "–             U 2.000 m/s");
+        assert_eq!(shown(&draft, Drawn::Radius(1)), "30 mm         R 12.00 mm");
+        draft.undo();
+        assert!(shown(&draft, Drawn::Turns(0)).starts_with("1500 1/min"));
+        let before = draft.scene.clone();
+        typed(&mut draft, of(Drawn::MeanHeight(0)), "1e6");
+        let reason = draft.verdict.clone().err().unwrap_or_default();
+        assert!(reason.contains("body_1.surface.ra_m"), "{reason}");
+        assert_eq!(draft.scene, before);
+        assert!(shown(&draft, Drawn::MeanHeight(0)).starts_with("0.1 µm"));
     }
 
     #[test]

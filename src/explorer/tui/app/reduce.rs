@@ -92,7 +92,7 @@ impl App {
             Action::Help => self.toggle(Overlay::Help),
             Action::Plan => self.toggle(Overlay::Plan),
             Action::Scene => self.toggle_draft(Form::Scene),
-            Action::OperatingPoint => self.toggle_draft(Form::Point),
+            Action::OperatingPoint => self.toggle_draft(self.next_form()),
             Action::Lessons => self.toggle_lessons(),
             Action::Focus(panel) => self.view.focus = panel,
             Action::NextPanel(by) => self.focus_next(by),

@@ -47,6 +47,14 @@ impl App {
         self.say(reason);
     }
 
+    /// The form of numbers that their key opens: the operating point, then the same as on drawings, which it closes.
+    pub(super) fn next_form(&self) -> Form {
+        match self.choice.draft.as_ref().map(|draft| draft.form) {
+            Some(Form::Point | Form::Drawing) => Form::Drawing,
+            Some(Form::Scene) | None => Form::Point,
+        }
+    }
+
     /// Opens or closes the choice of another scene or operating point; from one to the other the draft stays.
     pub(super) fn toggle_draft(&mut self, form: Form) {
         if let Some(draft) = self

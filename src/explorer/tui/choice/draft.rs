@@ -1,6 +1,6 @@
 //! A scene in the making, and the forms that change it.
 
-use super::Choice;
+use super::{Choice, Drawn};
 use crate::tui::units::{Units, read_number, sig};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene, SceneError, keys, presets};
@@ -15,6 +15,8 @@ pub enum Form {
     Scene,
     /// The numbers of the operating point.
     Point,
+    /// The same as drawings have them.
+    Drawing,
 }
 
 impl Form {
@@ -23,9 +25,13 @@ impl Form {
         match self {
             Self::Scene => &Choice::SCENE,
             Self::Point => &Choice::POINT,
+            Self::Drawing => &Drawn::ALL,
         }
     }
 }
+
+/// What a change is taken back to.
+type Kept = (Scene, Option<&'static str>, Vec<(Drawn, f64)>);
 
 /// A scene in the making.
 #[derive(Debug, Clone)]
@@ -42,8 +48,10 @@ pub struct Draft {
     pub verdict: Result<String, String>,
     /// The preset that was chosen.
     pub preset: Option<&'static str>,
+    /// What was typed as on a drawing, SI but for turns a minute and °C.
+    pub(super) drawn: Vec<(Drawn, f64)>,
     /// What it was before each change.
-    before: Vec<(Scene, Option<&'static str>)>,
+    before: Vec<Kept>,
 }
 
 impl Draft {
@@ -56,6 +64,7 @@ impl Draft {
             row: 0,
             verdict: Ok(String::new()),
             preset: None,
+            drawn: Vec::new(),
             before: Vec::new(),
         };
         draft.judge();
@@ -122,6 +131,9 @@ impl Draft {
 
     /// Puts a number into the scene, by the rules of a scene's file; a scene that breaks them stays as it was.
     pub(super) fn put(&mut self, choice: Choice, value: f64) {
+        if let Choice::Drawn(drawn) = choice {
+            return self.put_drawn(drawn, value);
+        }
         let sets = choice.keys(&self.scene);
         let sets = sets.iter().map(|key| Override::number(key, value));
         let made = sets
@@ -131,6 +143,7 @@ impl Draft {
             Ok(scene) => {
                 self.keep();
                 self.scene = scene;
+                self.forget_drawn(choice);
                 self.judge();
             }
             Err(error) => self.verdict = Err(error.to_string()),
@@ -144,7 +157,9 @@ impl Draft {
         if self.chosen().keys(&self.scene).is_empty() {
             self.keep();
         }
-        self.chosen().turn(self, by);
+        let choice = self.chosen();
+        choice.turn(self, by);
+        self.forget_drawn(choice);
         if self.chosen().keys(&self.scene).is_empty() {
             self.judge();
         }
@@ -158,6 +173,7 @@ impl Draft {
         {
             self.keep();
             self.take(preset.name);
+            self.forget_drawn(Choice::Preset);
             self.judge();
         }
     }
@@ -165,7 +181,7 @@ impl Draft {
     /// Takes the last change back.
     pub fn undo(&mut self) {
         if let Some(before) = self.before.pop() {
-            (self.scene, self.preset) = before;
+            (self.scene, self.preset, self.drawn) = before;
             self.judge();
         }
     }
@@ -175,7 +191,8 @@ impl Draft {
         if self.before.len() == MOST_KEPT {
             self.before.remove(0);
         }
-        self.before.push((self.scene.clone(), self.preset));
+        let kept = (self.scene.clone(), self.preset, self.drawn.clone());
+        self.before.push(kept);
     }
 
     pub(super) fn take_preset(&mut self, by: i32) {

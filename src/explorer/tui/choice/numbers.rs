@@ -74,6 +74,7 @@ impl Choice {
                 Surface::Random(_) => vec![of_surface(body, "cutoff_short_m")],
                 Surface::Smooth {} | Surface::HeightMap { .. } => Vec::new(),
             },
+            Self::Drawn(drawn) => drawn.key(scene).into_iter().collect(),
             Self::Preset | Self::Lay(_) | Self::Measure | Self::Model | Self::Nodes => Vec::new(),
         }
     }
@@ -100,7 +101,12 @@ impl Choice {
             })
             .filter(|height_m| *height_m > 0.0),
             Self::Wavelength(of) => wavelength(surface(scene, of)),
-            Self::Preset | Self::Lay(_) | Self::Measure | Self::Model | Self::Nodes => None,
+            Self::Preset
+            | Self::Lay(_)
+            | Self::Measure
+            | Self::Model
+            | Self::Nodes
+            | Self::Drawn(_) => None,
         }
     }
 
@@ -121,6 +127,7 @@ impl Choice {
             Self::PressureViscosity => Unit::new("1/GPa", 1e9),
             Self::Amplitude(_) => units.height(),
             Self::Wavelength(_) => units.length(),
+            Self::Drawn(drawn) => drawn.unit(units),
             _ => Unit::new("", 1.0),
         }
     }

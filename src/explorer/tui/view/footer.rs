@@ -95,17 +95,16 @@ fn hints(app: &App) -> Vec<FooterKey> {
             return vec![key(enter, "begin", Action::Enter), close];
         }
         Overlay::Scene => {
-            let is_point = app
-                .choice
-                .draft
-                .as_ref()
-                .is_some_and(|d| d.form == Form::Point);
-            let (own, other) = (key("e", "scene", Action::Scene), Action::OperatingPoint);
-            let other = key("E", "operating point", other);
+            let form = app.choice.draft.as_ref().map(|draft| draft.form);
+            let other = match form {
+                Some(Form::Point) => key("E", "as on drawings", Action::OperatingPoint),
+                Some(Form::Drawing) => key("e", "scene", Action::Scene),
+                Some(Form::Scene) | None => key("E", "operating point", Action::OperatingPoint),
+            };
             return vec![
                 key(enter, "run it", Action::Enter),
                 key("=", "type", Action::Type),
-                if is_point { own } else { other },
+                other,
                 key("Esc", "close", Action::Close),
             ];
         }

@@ -268,6 +268,10 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
         return;
     };
     let choices = draft.form.rows();
+    let numbers = theme.pick(
+        "↑↓ choose  ←→ change  1-9 = type  x undo  Enter runs it",
+        "up, down: choose; left, right: change; 1-9, =: type; x: undo",
+    );
     let (title, keys) = match draft.form {
         Form::Scene => (
             "change the scene (e closes, E operating point)",
@@ -276,13 +280,8 @@ pub(super) fn scene(app: &App, within: Rect, buffer: &mut Buffer) {
                 "up, down: choose; left, right: change; x: undo; Enter runs it",
             ),
         ),
-        Form::Point => (
-            "operating point (E closes, e scene)",
-            theme.pick(
-                "↑↓ choose  ←→ change  1-9 = type  x undo  Enter runs it",
-                "up, down: choose; left, right: change; 1-9, =: type; x: undo",
-            ),
-        ),
+        Form::Point => ("operating point (E as on drawings, e scene)", numbers),
+        Form::Drawing => ("as on drawings (E closes, e scene)", numbers),
     };
     let overlay = Overlay::new(app, within, title);
     let inner = overlay.frame(66, choices.len() as u16 + BELOW + 1, buffer);
