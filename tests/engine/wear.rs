@@ -2,8 +2,9 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use crate::whole::{goes_on_bit_for_bit, run, scene, small_demonstration};
+use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
-use asperity_engine::sim::Summary;
+use asperity_engine::sim::{Frame, Simulation, Summary};
 
 const DRY_LINE: &str = r#"
 [contact]
@@ -56,6 +57,62 @@ fn smooth_bodies_lose_what_archard_says() {
             }
         }
     }
+}
+
+/// A smooth oil film wears where it is thinner than `wear.thin_film_m`: k (|Δu|/U_i) ∫ p s dx of each body, where s grows from 0
+/// at that thickness to 1 at that of a contact, added up here from pressure and film in SI as a frame has them; as thick as the
+/// film's thickest part it wears next to everywhere, below its thinnest nowhere.
+#[test]
+fn thin_films_wear_by_their_share() {
+    let mut depths = Vec::new();
+    for thin_film_m in [0.0, 2e-8, 2e-7, 4e-7] {
+        let sets = [
+            "body_1.surface=none".to_owned(),
+            "body_2.surface=none".to_owned(),
+            "motion.slide_roll=0.5".to_owned(),
+            "numerics.ladder=false".to_owned(),
+            "numerics.error_estimate=none".to_owned(),
+            "wear.coefficient_1_per_pa=1e-18".to_owned(),
+            "wear.coefficient_2_per_pa=2e-18".to_owned(),
+            format!("wear.thin_film_m={thin_film_m:e}"),
+        ];
+        let sets: Vec<Override> = sets.iter().map(|set| set.parse().unwrap()).collect();
+        let scene = Scene::load_with("fzg_point_b", &sets).unwrap();
+        let found = run(&scene);
+        let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
+        while sim.passage_steps() < 2 {
+            sim.step().unwrap();
+        }
+        let mut frame = Frame::default();
+        sim.fill(&mut frame);
+        let touch_m = scene.friction.contact_film_m;
+        let shares = frame.pressure_pa.iter().zip(&frame.film_m).take(frame.nx);
+        let rubs: f64 = shares
+            .map(|(&p, &h)| {
+                let share = if thin_film_m > touch_m {
+                    (thin_film_m - f64::from(h)) / (thin_film_m - touch_m)
+                } else {
+                    0.0
+                };
+                f64::from(p) * share.clamp(0.0, 1.0) * frame.dx_m
+            })
+            .sum();
+        println!("films below {thin_film_m:e} m: {:?}", found.wear_depth_1_m);
+        let both = [
+            (found.wear_depth_1_m, 1e-18, 0.75),
+            (found.wear_depth_2_m, 2e-18, 1.25),
+        ];
+        for (depth, k, speed) in both {
+            let theirs = k * 0.5 / speed * rubs;
+            assert!(
+                (depth.unwrap() - theirs).abs() <= 1e-3 * theirs,
+                "{depth:?}, not {theirs:e}"
+            );
+        }
+        depths.push(found.wear_depth_1_m.unwrap());
+    }
+    assert_eq!(depths[..2], [0.0; 2]);
+    assert!(depths[2] > 0.0 && depths[3] > depths[2]);
 }
 
 /// A crest of body 1 in full contact (E* 115 GPa, λ 50 µm, b 0.2 mm, k 1e-18/Pa, S .5) loses 1.92684e-6 of its height a passage:

@@ -14,6 +14,8 @@ use crate::scene::{Age, Life, Scene};
 pub struct WearPlan {
     /// Greatest depth that a loading cycle can take from body 1 and 2 if all load is on contacts, m.
     pub most_a_cycle_m: [f64; 2],
+    /// Thinnest film that does not wear, m; 0: contacts alone wear.
+    pub thin_film_m: f64,
     /// Loading cycles that are asked for.
     pub age: Option<Age>,
     /// Whether it is followed where damage makes pits: surfaces age, and a calibration point makes damage absolute.
@@ -35,6 +37,7 @@ impl WearPlan {
         };
         Some(Self {
             most_a_cycle_m: [most(0), most(1)],
+            thin_film_m: wear.thin_film_m,
             age: scene.age,
             pits: scene.age.is_some() && calibration.is_some(),
         })
@@ -48,8 +51,12 @@ impl WearPlan {
             }
             _ => length(0.0),
         });
+        let thin = match self.thin_film_m {
+            0.0 => String::new(),
+            thin_m => format!(" and, by a share, through films below {}", length(thin_m)),
+        };
         let most = format!(
-            "wear where asperities touch: at most {one} and {two} a loading cycle of body 1 and 2"
+            "wear where asperities touch{thin}: at most {one} and {two} a loading cycle of body 1 and 2"
         );
         match self.age {
             Some(age) => {

@@ -262,10 +262,11 @@ pub const SECTIONS: &[Section] = &[
     Section {
         path: "wear",
         need: Optional("nothing wears"),
-        doc: "Wear after Archard where asperities touch: depth a time = coefficient x pressure x |U2 - U1|; what the film carries does not wear.",
+        doc: "Wear after Archard where asperities touch: depth a time = coefficient x pressure x |U2 - U1|; what the film carries does not wear, but by a stated share of thin films.",
         keys: &[
             key("coefficient_1_per_pa", "1/Pa", Number(0.0, 1e-9), Defaulted, "wear coefficient of body 1 over its hardness; mild wear of lubricated steel: 1e-19 to 1e-17"),
             key("coefficient_2_per_pa", "1/Pa", Number(0.0, 1e-9), Defaulted, "same of body 2"),
+            key("thin_film_m", "m", Number(0.0, 1e-6), Defaulted, "thinner films wear, too, as roughness that the mesh does not carry touches through them: by a share of the pressure that grows from 0 at this thickness to 1 in contact"),
         ],
     },
     Section {

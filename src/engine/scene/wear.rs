@@ -13,6 +13,8 @@ pub struct Wear {
     pub coefficient_1_per_pa: f64,
     /// Same of body 2.
     pub coefficient_2_per_pa: f64,
+    /// Films thinner than this wear, too, by a share that grows from nothing there to one in contact, m.
+    pub thin_film_m: f64,
 }
 
 /// `[age]`: loading cycles beyond the passages that are simulated.

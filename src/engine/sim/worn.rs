@@ -2,13 +2,15 @@
 //! alternate with jumps of many cycles.
 //!
 //! ```text
-//! depth a time       dw_i/dt = k_i p |U2 − U1|  where asperities touch                                  (Archard 1953)
+//! depth a time       dw_i/dt = k_i s p |U2 − U1|,  s = 1 where asperities touch                         (Archard 1953)
+//!                    s = 1 − (h − h_c)/(h_t − h_c)  of films between contact and h_t, if thin ones wear; else 0
 //! a loading cycle    r_i(ξ, y) = (λ_i/D_i) Σ_steps Σ_waves dw_i        ξ along one period λ_i of the body, D_i what it travelled
 //! jumps              w* = w + ΔN r,   r* the rate with w*,   w ← w + ΔN (r + r*)/2,   error = ΔN max|r* − r|/2
 //! ```
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | k_i | wear coefficient over hardness | 1/Pa |
+//! | h_c, h_t | film at which asperities touch, thinnest that does not wear | m |
 //! | w_i | depth worn | m |
 //! | λ_i | period of the surface along x; of a smooth body any length: it wears alike all along | m |
 //! | ΔN | loading cycles of a jump | |
@@ -136,12 +138,28 @@ pub(super) struct Rubbing<'a> {
     pub(super) law: &'a TractionLaw,
     pub(super) pressure: &'a [f64],
     pub(super) film: &'a [f64],
+    /// h_t, film units; 0: contacts alone wear.
+    pub(super) thin: f64,
     /// |S| of now, and the step's length (a/U).
     pub(super) sliding: f64,
     pub(super) dt: f64,
     pub(super) travels: [BodyTravel; 2],
     /// What body 1 and 2 travelled in it, in a.
     pub(super) moved: [f64; 2],
+}
+
+impl Rubbing<'_> {
+    /// s: the part of a pressure over a film that wears.
+    fn share(&self, p: f64, h: f64) -> f64 {
+        let touch = self.law.contact_film;
+        if self.law.is_contact(p, h) {
+            1.0
+        } else if p > 0.0 && h < self.thin {
+            (self.thin - h) / (self.thin - touch)
+        } else {
+            0.0
+        }
+    }
 }
 
 impl Worn {
@@ -504,10 +522,11 @@ impl WornSkin {
             let (p, h) = (&step.pressure[nodes.clone()], &step.film[nodes]);
             let row = &mut self.sum[j * n..(j + 1) * n];
             for i in 0..grid.nx {
-                if !step.law.is_contact(p[i], h[i]) {
+                let share = step.share(p[i], h[i]);
+                if share == 0.0 {
                     continue;
                 }
-                let depth = worn * p[i];
+                let depth = worn * share * p[i];
                 self.volume += depth * spacing * grid.weight(j) / grid.dx;
                 let (columns, weights) = around((grid.x(i) - travelled) / spacing, n);
                 for (column, weight) in columns.into_iter().zip(weights) {
@@ -615,6 +634,7 @@ mod tests {
                 law: &dry(),
                 pressure: &field,
                 film: &film,
+                thin: 0.0,
                 sliding: 0.5,
                 dt,
                 travels: travels.map(travel),

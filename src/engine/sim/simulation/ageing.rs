@@ -45,6 +45,7 @@ pub(super) fn age(
         law: &law,
         pressure: &state.contact.pressure,
         film: &state.contact.film,
+        thin: (plan.scaling).h_from_m(plan.scene.wear.unwrap_or_default().thin_film_m),
         sliding: state.drive.get(Knob::SlideRoll).now.abs(),
         dt: state.distance - before.1,
         travels: state.motion.of_bodies(),

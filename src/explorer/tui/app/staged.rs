@@ -145,6 +145,7 @@ impl App {
             let mild = Wear {
                 coefficient_1_per_pa: MILD_PER_PA,
                 coefficient_2_per_pa: MILD_PER_PA,
+                thin_film_m: 0.0,
             };
             let [one, two] = scene.wear.get_or_insert(mild).coefficients_per_pa();
             scene.age = Some(Age {
