@@ -203,6 +203,65 @@ fn kills_leave_whole_cases_and_resuming_gives_the_same_table() {
     }
 }
 
+/// A line that wears over some cycles, with a calibration point: pits and wear over both keys.
+const AGED: &str = "
+title = \"aged\"
+scene = \"fzg_point_b\"
+[set]
+grid.nodes = 65
+numerics.ladder = false
+numerics.error_estimate = \"none\"
+time.passages = 0.3
+body_1.surface = \"none\"
+body_2.surface = \"none\"
+age.cycles = 1e4
+wear.coefficient_2_per_pa = 1e-18
+wear.thin_film_m = 1e-6
+life.calibration_cycles = 1e8
+life.calibration_pressure_pa = 1.7e9
+[vary]
+wear.coefficient_1_per_pa = [1e-18, 1e-17]
+motion.slide_roll = [0.2, 0.4]
+";
+
+/// What surfaces that age come to has its pictures, and `--force` takes them away again.
+#[test]
+fn pits_and_wear_have_curves_and_maps() {
+    let root = tempfile::tempdir().unwrap();
+    let place = root.path();
+    std::fs::write(place.join("aged.toml"), AGED).unwrap();
+    let run = |more: &[&'static str]| {
+        let args = [&["sweep", "aged.toml", "--out=out"], more].concat();
+        asperity(place, &args)
+    };
+    let made = run(&[]);
+    assert_eq!(made.status.code(), Some(0), "{made:?}");
+    for name in [
+        "pits_against_slide_roll.svg",
+        "worn_against_slide_roll.svg",
+        "pits_map.svg",
+        "worn_map.svg",
+    ] {
+        let text = std::fs::read_to_string(place.join("out").join(name)).unwrap();
+        assert!(text.contains("<svg") && text.contains("aged"), "{name}");
+    }
+    let before = names(&place.join("out"));
+    assert_eq!(run(&["--force"]).status.code(), Some(0));
+    assert_eq!(names(&place.join("out")), before);
+    // Without ageing there are none of them.
+    let fresh = AGED
+        .replace("age.cycles = 1e4", "")
+        .replace("wear.", "# wear.");
+    let fresh = fresh.replace("# wear.coefficient_1_per_pa = [", "load.force_n_per_m = [");
+    let fresh = fresh.replace("[1e-18, 1e-17]", "[2e5, 4e5]");
+    std::fs::write(place.join("aged.toml"), fresh).unwrap();
+    let made = run(&["--force"]);
+    assert_eq!(made.status.code(), Some(0), "{made:?}");
+    let left = names(&place.join("out"));
+    let aged = |name: &&String| name.starts_with("pits") || name.starts_with("worn");
+    assert_eq!(left.iter().find(aged), None);
+}
+
 /// Both bodies alike and rough, on 65 nodes.
 const TREND: &str = "
 scene = \"demonstration\"

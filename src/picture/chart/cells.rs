@@ -22,6 +22,14 @@ pub struct HeatMap {
     pub rows: Vec<Vec<f64>>,
 }
 
+/// Logarithmic where rising values span a decade or more.
+fn scale_of(values: &[f64]) -> Scale {
+    match (values.first(), values.last()) {
+        (Some(&first), Some(&last)) if first > 0.0 && last >= 10.0 * first => Scale::Log,
+        _ => Scale::Linear,
+    }
+}
+
 impl Layout for HeatMap {
     fn drawing(&self) -> Option<Drawing> {
         let scale = self.value.1;
@@ -32,11 +40,16 @@ impl Layout for HeatMap {
         });
         let [low, high] = ends?;
         let range = axis(scale, [low, high.max(low + 1e-9)], &self.value.0);
-        let (xs, ys) = (edges(&self.x.1), edges(&self.y.1));
+        let scales = [&self.x.1, &self.y.1].map(|values| scale_of(values));
+        let placed = |values: &[f64], scale: Scale| {
+            let places = values.iter().filter_map(|value| scale.place(*value));
+            edges(&places.collect::<Vec<_>>())
+        };
+        let (xs, ys) = (placed(&self.x.1, scales[0]), placed(&self.y.1, scales[1]));
         let outer = |edges: &[f64]| [edges[0], edges[edges.len() - 1]];
-        let x = axis(Scale::Linear, outer(&xs), &self.x.0);
-        let y = axis(Scale::Linear, outer(&ys), &self.y.0);
-        let (mut drawing, plot) = titled(&self.title, 8.5);
+        let x = axis(scales[0], outer(&xs), &self.x.0);
+        let y = axis(scales[1], outer(&ys), &self.y.0);
+        let (mut drawing, plot) = titled(&self.title, &y, 8.5);
         let [columns, rows] = [plot.wide, plot.high].map(|side| side as u32);
         // A pixel's cell: the last whose edge lies before its middle.
         let cells = |axis: &Axis, edges: &[f64], pixels: u32| -> Vec<usize> {

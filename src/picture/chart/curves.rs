@@ -134,9 +134,9 @@ impl Layout for Figure {
         let all = || curves.iter().flatten();
         let x_ends = span(all().map(|at| at[0]))?;
         let y_ends = span(all().map(|at| at[1]).chain(levels.clone()))?;
-        let (mut drawing, plot) = titled(&self.title, 1.5);
         let x = axis(self.x.1, x_ends, &self.x.0);
         let y = axis(self.y.1, y_ends, &self.y.0);
+        let (mut drawing, plot) = titled(&self.title, &y, 1.5);
         drawing.grid(plot, &x, &y);
         for level in levels {
             let at = y.share(level);

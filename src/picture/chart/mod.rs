@@ -54,14 +54,22 @@ impl<C: Layout> Chart for C {
     }
 }
 
-/// An empty chart with its title, and its plot, at whose right so many sizes of type are left.
-fn titled(title: &str, right: f64) -> (Drawing, Rect) {
+/// An empty chart with its title, and its plot, at whose left the numbers of the upright axis have room beside its title, and
+/// at whose right so many sizes of type are left.
+fn titled(title: &str, upright: &Axis, right: f64) -> (Drawing, Rect) {
+    /// For numbers of up to five characters, and what each one more takes, in sizes of type.
+    const LEFT: f64 = 78.0;
+    const CHARACTER: f64 = 0.6;
     let mut drawing = Drawing::new(SizeUnit::Pixel, SIZE, TYPE);
     let [wide, high] = SIZE;
+    let labels = upright.labels.iter();
+    let longest = labels.map(|(_, label)| label.chars().count()).max();
+    let more = longest.unwrap_or(0).saturating_sub(5) as f64 * CHARACTER;
+    let left = LEFT + (more * TYPE).round();
     let plot = Rect {
-        left: 78.0,
+        left,
         top: 52.0,
-        wide: wide - 78.0 - (right * TYPE).round(),
+        wide: wide - left - (right * TYPE).round(),
         high: high - 52.0 - 66.0,
     };
     let at = [plot.left, 26.0];

@@ -3,10 +3,11 @@
 //! | picture | drawn when |
 //! |---|---|
 //! | life, friction, minimum film, maximum pressure against the last axis (a path: the way) | it is made of numbers |
+//! | part of the surface with pits, depth worn | surfaces age, or wear |
 //! | film against speed with the regression line | the entrainment speed varies |
 //! | Stribeck: friction against λ; lives by both counts against λ | speed, viscosity, load or roughness varies |
-//! | mean life over the seeds, with its ends | seeds vary, and one key of numbers |
-//! | life map | two axes of numbers make a grid, no seeds among them |
+//! | mean life over the seeds, and of pits, with its ends | seeds vary, and one key of numbers |
+//! | maps of life, of pits and of wear | two axes of numbers make a grid, no seeds among them |
 //!
 //! Each is written as SVG and as PNG. Several axes make one curve for each combination of the others, at most eight.
 
@@ -59,8 +60,10 @@ pub fn pictures(sweep: &Sweep, rows: &Rows) -> Result<Vec<(String, String)>, Swe
 fn charts(sweep: &Sweep, rows: &Rows) -> Vec<(String, Box<dyn Chart>)> {
     let boxed = |(name, figure)| (name, Box::new(figure) as Box<dyn Chart>);
     let mut all: Vec<_> = figures(sweep, rows).into_iter().map(boxed).collect();
-    if let Some(map) = life_map(sweep, rows) {
-        all.push(("life_map".to_owned(), Box::new(map)));
+    for map in MAPS {
+        if let Some(drawn) = heat_map(sweep, rows, &map) {
+            all.push((map.name.to_owned(), Box::new(drawn)));
+        }
     }
     all
 }
@@ -153,13 +156,19 @@ fn drawn(sweep: &Sweep, rows: &Rows, column: &str) -> (Vec<f64>, bool) {
     (values, is_common)
 }
 
-/// Pictures along the last axis, the first four of any sweep, all of a path.
+/// What surfaces that age come to.
+const PITTED: &str = "part of the surface with pits";
+const WORN: &str = "depth worn, m";
+
+/// Pictures along the last axis, the first six of any sweep, all of a path.
 #[rustfmt::skip]
-const PLOTS: [Plot; 7] = [
+const PLOTS: [Plot; 9] = [
     Plot { name: "life", label: OWN_LIFE, scale: Scale::Log, curves: &[computed("", "life_relative")] },
     Plot { name: "traction", label: "friction coefficient", scale: Scale::Linear, curves: &[computed("", "friction_coefficient")] },
     Plot { name: "pressure", label: "pressure, Pa", scale: Scale::Linear, curves: &[computed("maximum", "p_max_greatest_pa"), computed("mean of the steps' maxima", "p_max_pa"), formula("Hertz", "p_hertz_pa")] },
     Plot { name: "film", label: "film, m", scale: Scale::Log, curves: &[computed("centre", "h_central_m"), computed("mean of the steps' minima", "h_min_m"), formula("smooth, by regression", "h_regression_m")] },
+    Plot { name: "pits", label: PITTED, scale: Scale::Linear, curves: &[computed("body 1", "pitted_area_1"), computed("body 2", "pitted_area_2")] },
+    Plot { name: "worn", label: WORN, scale: Scale::Linear, curves: &[computed("body 1", "wear_depth_1_m"), computed("body 2", "wear_depth_2_m")] },
     Plot { name: "mechanisms", label: "factor of life", scale: Scale::Log, curves: &[computed("cycles", "cycle_factor"), computed("peaks", "peak_factor"), computed("traction", "traction_factor"), computed("load", "load_factor")] },
     Plot { name: "contacts", label: "contacts a loading cycle n", scale: Scale::Log, curves: &[computed("body 1", "n_body_1"), computed("body 2", "n_body_2")] },
     Plot { name: "lambda", label: "lambda", scale: Scale::Linear, curves: &[computed("", "lambda_ratio")] },
@@ -178,7 +187,7 @@ fn figures(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
     };
     let lines = lines(sweep);
     let plots = if sweep.path.is_empty() {
-        &PLOTS[..4]
+        &PLOTS[..6]
     } else {
         &PLOTS[..]
     };
@@ -278,43 +287,77 @@ fn title(sweep: &Sweep) -> String {
     }
 }
 
-/// Mean life over the seeds and its ends, where seeds vary and one key of numbers beside them.
-fn over_seeds(sweep: &Sweep, rows: &Rows) -> Option<(String, Figure)> {
+/// Mean over the seeds and its ends, of life and of pits, where seeds vary and one key of numbers beside them.
+fn over_seeds(sweep: &Sweep, rows: &Rows) -> Vec<(String, Figure)> {
+    let (lives, is_common) = drawn(sweep, rows, "life_relative");
+    let scatter = |values: Vec<f64>| {
+        let found = Scatter::of(values)?;
+        Some([found.mean, found.ends[0], found.ends[1]])
+    };
+    let life = if is_common { COMMON_LIFE } else { OWN_LIFE };
+    let mean = "mean over the seeds (of the logarithms)";
+    let of_life = seeds_figure(sweep, &lives, (life, Scale::Log), mean, scatter);
+    // None has pits on most maps: no logarithms.
+    let plain = |values: Vec<f64>| {
+        let known: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();
+        let least = known.iter().copied().reduce(f64::min)?;
+        let most = known.iter().copied().reduce(f64::max)?;
+        Some([known.iter().sum::<f64>() / known.len() as f64, least, most])
+    };
+    let pits = of_worse_body(sweep, rows, ["pitted_area_1", "pitted_area_2"]);
+    let mean = "mean over the seeds, worse body";
+    let of_pits = seeds_figure(sweep, &pits, (PITTED, Scale::Linear), mean, plain);
+    let named = |name: &str, figure: Option<Figure>| Some((name.to_owned(), figure?));
+    let both = [
+        named("life_over_seeds", of_life),
+        named("pits_over_seeds", of_pits),
+    ];
+    both.into_iter().flatten().collect()
+}
+
+/// Mean, least and greatest of a value a case over the seeds, as `scatter` has them, against the other key.
+fn seeds_figure(
+    sweep: &Sweep,
+    values: &[f64],
+    (label, scale): (&str, Scale),
+    mean: &str,
+    scatter: impl Fn(Vec<f64>) -> Option<[f64; 3]>,
+) -> Option<Figure> {
     let (seeds, others) = sweep.seed_axes();
     let ([_, ..], [other]) = (&seeds[..], &others[..]) else {
         return None;
     };
     let axis = &sweep.axes[*other];
-    let (xs, (lives, is_common)) = (axis.numbers()?, drawn(sweep, rows, "life_relative"));
+    let xs = axis.numbers()?;
     let of = |group: Vec<usize>| {
         let x = xs[sweep.place(group[0])[*other]];
-        Scatter::of(group.iter().map(|&case| lives[case])).map(|found| (x, found))
+        let values = group.iter().filter_map(|&case| values.get(case).copied());
+        scatter(values.collect()).map(|found| (x, found))
     };
-    let found: Vec<(f64, Scatter)> = sweep.over_seeds().into_iter().filter_map(of).collect();
-    let curve = |name: &str, mark: Mark, of: fn(&Scatter) -> f64| Curve {
+    let found: Vec<(f64, [f64; 3])> = sweep.over_seeds().into_iter().filter_map(of).collect();
+    let names = [
+        (mean, Mark::Computed),
+        ("least", Mark::Formula),
+        ("greatest", Mark::Formula),
+    ];
+    let curve = |(which, (name, mark)): (usize, (&str, Mark))| Curve {
         name: name.to_owned(),
-        points: found.iter().map(|(x, found)| (*x, of(found))).collect(),
+        points: found.iter().map(|(x, found)| (*x, found[which])).collect(),
         mark,
     };
-    let figure = Figure {
+    (!found.is_empty()).then(|| Figure {
         title: title(sweep),
         x: (axis.label(), scale_of(&xs)),
-        y: (
-            (if is_common { COMMON_LIFE } else { OWN_LIFE }).to_owned(),
-            Scale::Log,
-        ),
-        curves: vec![
-            curve(
-                "mean over the seeds (of the logarithms)",
-                Mark::Computed,
-                |s| s.mean,
-            ),
-            curve("least", Mark::Formula, |s| s.ends[0]),
-            curve("greatest", Mark::Formula, |s| s.ends[1]),
-        ],
+        y: (label.to_owned(), scale),
+        curves: names.into_iter().enumerate().map(curve).collect(),
         levels: Vec::new(),
-    };
-    Some(("life_over_seeds".to_owned(), figure))
+    })
+}
+
+/// The greater of both bodies' values, case by case.
+fn of_worse_body(sweep: &Sweep, rows: &Rows, columns: [&str; 2]) -> Vec<f64> {
+    let [one, two] = columns.map(|column| rows.column(sweep, column).unwrap_or_default());
+    one.into_iter().zip(two).map(|(a, b)| a.max(b)).collect()
 }
 
 /// Friction and lives against λ, where something varies that moves λ.
@@ -346,8 +389,30 @@ fn against_lambda(sweep: &Sweep, rows: &Rows, lines: &[Line]) -> Vec<(String, Fi
     AGAINST_LAMBDA.iter().map(draw).collect()
 }
 
-/// Life over the last two axes of a grid; of more axes, at the first values of the others.
-fn life_map(sweep: &Sweep, rows: &Rows) -> Option<HeatMap> {
+/// A picture over two axes.
+struct MapPlot {
+    name: &'static str,
+    /// Over the colours, where there is room for a word.
+    value: &'static str,
+    of: MapOf,
+}
+
+/// What it shows.
+enum MapOf {
+    Life,
+    /// The greater of both bodies' columns, and what it is.
+    WorseBody([&'static str; 2], &'static str),
+}
+
+#[rustfmt::skip]
+const MAPS: [MapPlot; 3] = [
+    MapPlot { name: "life_map", value: "life", of: MapOf::Life },
+    MapPlot { name: "pits_map", value: "pits", of: MapOf::WorseBody(["pitted_area_1", "pitted_area_2"], PITTED) },
+    MapPlot { name: "worn_map", value: "worn", of: MapOf::WorseBody(["wear_depth_1_m", "wear_depth_2_m"], WORN) },
+];
+
+/// A value over the last two axes of a grid; of more axes, at the first values of the others.
+fn heat_map(sweep: &Sweep, rows: &Rows, map: &MapPlot) -> Option<HeatMap> {
     let [.., y, x] = sweep.axes.as_slice() else {
         return None;
     };
@@ -357,22 +422,32 @@ fn life_map(sweep: &Sweep, rows: &Rows) -> Option<HeatMap> {
     if has_seeds || sweep.combine != Combine::Grid || xs.len() < 2 || ys.len() < 2 {
         return None;
     }
-    let (lives, is_common) = drawn(sweep, rows, "life_relative");
     let rising = |list: &[f64]| list.windows(2).all(|pair| pair[1] > pair[0]);
     if !rising(&xs) || !rising(&ys) {
         return None;
     }
-    let what = if is_common { COMMON_LIFE } else { OWN_LIFE };
-    Some(HeatMap {
-        // Above the bar there is room for a word.
-        title: format!("{}: {what}", title(sweep)),
-        rows: lives
-            .chunks(xs.len())
-            .take(ys.len())
-            .map(<[f64]>::to_vec)
-            .collect(),
-        x: (x.label(), xs),
-        y: (y.label(), ys),
-        value: ("life".to_owned(), Scale::Log),
-    })
+    let (values, what, scale) = match map.of {
+        MapOf::Life => {
+            let (lives, is_common) = drawn(sweep, rows, "life_relative");
+            let what = if is_common { COMMON_LIFE } else { OWN_LIFE };
+            (lives, what, Scale::Log)
+        }
+        MapOf::WorseBody(columns, what) => {
+            (of_worse_body(sweep, rows, columns), what, Scale::Linear)
+        }
+    };
+    values
+        .iter()
+        .any(|value| value.is_finite())
+        .then(|| HeatMap {
+            title: format!("{}: {what}", title(sweep)),
+            rows: values
+                .chunks(xs.len())
+                .take(ys.len())
+                .map(<[f64]>::to_vec)
+                .collect(),
+            x: (x.label(), xs),
+            y: (y.label(), ys),
+            value: (map.value.to_owned(), scale),
+        })
 }

@@ -137,7 +137,7 @@ pub(super) fn is_numbered(name: &str, ending: &str) -> bool {
 
 /// Whether a table or a picture has that name.
 fn is_result(name: &str) -> bool {
-    const PICTURES: [&str; 9] = [
+    const PICTURES: [&str; 15] = [
         "life_against_",
         "traction_against_",
         "pressure_against_",
@@ -145,8 +145,14 @@ fn is_result(name: &str) -> bool {
         "mechanisms_against_",
         "contacts_against_",
         "lambda_against_",
+        "pits_against_",
+        "worn_against_",
         "stribeck.",
         "life_map.",
+        "pits_map.",
+        "worn_map.",
+        "life_over_seeds.",
+        "pits_over_seeds.",
     ];
     let drawn = |name: &str| PICTURES.iter().any(|picture| name.starts_with(picture));
     let path = Path::new(name);
