@@ -22,6 +22,7 @@ const PRESETS: &[SweepPreset] = &[
     preset!("slide_roll"),
     preset!("random_rollers"),
     preset!("two_rough_discs"),
+    preset!("pits_and_wear"),
     preset!("life_map"),
     preset!("stribeck"),
     preset!("lambda"),
