@@ -104,14 +104,23 @@ impl Drawn {
 
     /// Whether another row sets what this one has become.
     fn is_undone_by(self, choice: Choice) -> bool {
-        match (self, choice) {
-            (_, Choice::Preset)
-            | (Self::Radius(_) | Self::Turns(_), Choice::Radius(0))
-            | (Self::Across(_), Choice::Radius(_))
-            | (Self::Turns(_), Choice::Speed | Choice::SlideRoll)
-            | (Self::Grade | Self::Temperature | Self::Index, Choice::Viscosity) => true,
-            (Self::MeanHeight(own), Choice::Lay(body) | Choice::Amplitude(body)) => own == body,
-            _ => false,
+        let of_body = |body: usize| self == Self::MeanHeight(body);
+        match choice {
+            Choice::Preset => true,
+            Choice::Radius(0) => matches!(self, Self::Radius(_) | Self::Turns(_)),
+            Choice::Radius(_) => matches!(self, Self::Across(_)),
+            Choice::Speed | Choice::SlideRoll => matches!(self, Self::Turns(_)),
+            Choice::Viscosity => matches!(self, Self::Grade | Self::Temperature | Self::Index),
+            Choice::Lay(body) | Choice::Amplitude(body) => of_body(body),
+            Choice::Young(_)
+            | Choice::Load
+            | Choice::HertzPressure
+            | Choice::PressureViscosity
+            | Choice::Wavelength(_)
+            | Choice::Measure
+            | Choice::Model
+            | Choice::Nodes
+            | Choice::Drawn(_) => false,
         }
     }
 
@@ -148,7 +157,8 @@ impl Drawn {
             (None, _) => match self {
                 Self::Across(_) => "a line contact",
                 Self::MeanHeight(_) => "no wave, no made surface",
-                _ => "dry",
+                Self::Grade | Self::Temperature | Self::Index => "dry",
+                Self::Radius(_) | Self::Turns(_) => "",
             }
             .to_owned(),
         };
@@ -188,7 +198,12 @@ impl Drawn {
         let value = self.value(draft)?;
         Some(match self {
             Self::Temperature => value + TEMPERATURE_STEP_C * f64::from(by),
-            _ => stepped(value, by),
+            Self::Radius(_)
+            | Self::Across(_)
+            | Self::Turns(_)
+            | Self::MeanHeight(_)
+            | Self::Grade
+            | Self::Index => stepped(value, by),
         })
     }
 }
