@@ -13,10 +13,11 @@
 //! | h, k_f | film, its conductivity | m, W/(m K) |
 //!
 //! [`symbols`] has the warming by waves. Lagging d by a step is unstable for films below some 50 nm; this is not. A wake that
-//! reaches the end of the padded domain would come round: every [`DAMP_EVERY`] steps the end of the padding is cleared of it.
-//! Of a point contact whose Péclet number V a/κ is below 1 that end counts: at .1 it is 4 % too cold.
+//! reaches the end of the padded domain would come round: every [`DAMP_EVERY`] steps, of slow bodies more often, the end of the padding is cleared of it.
+//! Of a point contact whose Péclet number V a/κ is below 2 what is cleared counts, and goes on in [`far`].
 //! Sources: Blok (1937); Jaeger (1942); Carslaw and Jaeger (1959).
 
+mod far;
 mod plane;
 mod symbols;
 
@@ -26,11 +27,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::grid::Grid;
 use crate::saved::{Saved, saved};
+use far::Far;
 use plane::{Plane, Spread};
 use symbols::{Symbols, exponentials, n_exponentials};
 
-/// Steps between two clearings of the padding.
+/// Steps between two clearings of the padding; fewer, but not below the second, where heat would come round meanwhile.
 const DAMP_EVERY: u32 = 16;
+const DAMP_OFTEN: u32 = 4;
 /// Decay over a step, as an exponent, beyond which a mode has nothing left to say after it.
 const GONE: f64 = 16.0;
 /// Relative residual of d, and most iterations.
@@ -99,6 +102,8 @@ impl<T: Copy> Saved for Waves<T> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HeatState {
     bodies: [Past; 2],
+    /// Modes of the far planes of both; empty where there are none.
+    far: [Waves<f32>; 2],
     /// d of the last step, W/m².
     exchange: Vec<f64>,
     /// Steps since the padding was cleared.
@@ -108,7 +113,7 @@ pub struct HeatState {
 }
 
 saved! {
-    HeatState { parts: bodies, exchange; free: since, made_for_s; }
+    HeatState { parts: bodies, far, exchange; free: since, made_for_s; }
     holds |_, saved| saved.made_for_s >= 0.0
 }
 
@@ -132,6 +137,7 @@ saved! {
 /// until then nothing of the state changes but its padding.
 pub struct Heat {
     plane: Plane,
+    far: Option<Far>,
     length_m: f64,
     bodies: [Thermal; 2],
     tables: Option<([Symbols; 2], [f64; 4])>,
@@ -156,10 +162,19 @@ pub struct Heat {
 }
 
 impl Heat {
-    /// Of bodies on `grid`, whose unit of length is `length_m`, that move at about `speed_m_s`; slower ones lose heat at the rim.
+    /// Of bodies on `grid`, whose unit of length is `length_m`, that move at about `speed_m_s`.
     pub fn new(grid: &Grid, length_m: f64, bodies: [Thermal; 2], speed_m_s: f64) -> Self {
         let peclet = bodies.map(|body| speed_m_s.abs() * length_m / body.diffusivity);
-        let plane = Plane::new(grid, peclet[0].min(peclet[1]) < SPREADS);
+        let spreads = peclet[0].min(peclet[1]) < SPREADS;
+        let mut plane = Plane::new(grid, spreads);
+        let far = if spreads {
+            Far::new(grid, &plane)
+        } else {
+            None
+        };
+        if far.is_some() {
+            plane.keep_removed();
+        }
         let field = || vec![0.0; grid.len()];
         let waves = || vec![Complex::default(); plane.len()];
         let modes = || Waves(vec![Complex::default(); plane.len() * n_exponentials()]);
@@ -173,6 +188,7 @@ impl Heat {
             scratch: waves(),
             next: [modes(), modes()],
             plane,
+            far,
             length_m,
             bodies,
             tables: None,
@@ -194,8 +210,10 @@ impl Heat {
             last: waves(),
             before: waves(),
         };
+        let far = || (self.far.as_ref()).map_or_else(Waves::default, Far::cold);
         HeatState {
             bodies: [past(), past()],
+            far: [far(), far()],
             exchange: vec![0.0; self.into_body_1.len()],
             since: 0,
             made_for_s: 0.0,
@@ -218,8 +236,13 @@ impl Heat {
         let asked = [v1, v2, dt_s, state.made_for_s];
         if self.tables.as_ref().is_none_or(|(_, own)| *own != asked) {
             let mean = 0.5 * (v1 + v2);
-            self.plane.clear_for(self.spread(dt_s, speeds_m_s));
+            let spread = self.spread(dt_s, speeds_m_s);
+            self.plane.clear_for(spread);
             let exponentials = exponentials(state.made_for_s);
+            if let Some(far) = &mut self.far {
+                let moving = (self.bodies, speeds_m_s);
+                far.make_tables(spread, (self.length_m, dt_s), moving, &exponentials);
+            }
             self.tables = Some((
                 [0, 1].map(|body: usize| {
                     let speeds = [speeds_m_s[body], mean];
@@ -236,10 +259,11 @@ impl Heat {
                 asked,
             ));
         }
-        if state.since >= DAMP_EVERY {
+        if state.since >= self.damp_every(dt_s) {
             state.since = 0;
-            for (past, speed) in state.bodies.iter_mut().zip(speeds_m_s) {
-                self.damp(past, speed >= 0.0, [dt_s, state.made_for_s]);
+            let all = state.bodies.iter_mut().zip(&mut state.far);
+            for ((past, far), speed) in all.zip(speeds_m_s) {
+                self.damp(past, far, speed >= 0.0, [dt_s, state.made_for_s]);
             }
         }
         let Some((tables, _)) = &self.tables else {
@@ -252,17 +276,34 @@ impl Heat {
                 &mut self.next[body].0,
                 &mut self.past[body],
             );
+            if let Some(far) = &mut self.far {
+                far.advance(body, &state.far[body]);
+            }
         }
         self.exchange.clone_from(&state.exchange);
         self.is_known = false;
+    }
+
+    /// Steps between two clearings: where heat spreads as fast as it is carried, it spreads over a quarter of the padding.
+    fn damp_every(&self, dt_s: f64) -> u32 {
+        if self.far.is_none() {
+            return DAMP_EVERY;
+        }
+        let room = 0.25 * self.plane.padding() * self.length_m;
+        let steps = room * room / (4.0 * self.fastest_diffusivity() * dt_s);
+        (steps as u32).clamp(DAMP_OFTEN, DAMP_EVERY)
+    }
+
+    fn fastest_diffusivity(&self) -> f64 {
+        f64::max(self.bodies[0].diffusivity, self.bodies[1].diffusivity)
     }
 
     /// How heat goes between two clearings.
     fn spread(&self, dt_s: f64, speeds_m_s: [f64; 2]) -> Spread {
         let [fast, slow] =
             [f64::max, f64::min].map(|of| of(speeds_m_s[0].abs(), speeds_m_s[1].abs()));
-        let diffusivity = f64::max(self.bodies[0].diffusivity, self.bodies[1].diffusivity);
-        let time_s = f64::from(DAMP_EVERY) * dt_s;
+        let diffusivity = self.fastest_diffusivity();
+        let time_s = f64::from(self.damp_every(dt_s)) * dt_s;
         Spread {
             spreads: (4.0 * diffusivity * time_s).sqrt() / self.length_m,
             carried: fast * time_s / self.length_m,
@@ -270,8 +311,14 @@ impl Heat {
         }
     }
 
-    /// Clears the padding of every mode that lives long enough to come round.
-    fn damp(&mut self, past: &mut Past, forward: bool, [dt_s, made_for_s]: [f64; 2]) {
+    /// Clears the padding of every mode that lives long enough to come round; `beyond`: where it goes on.
+    fn damp(
+        &mut self,
+        past: &mut Past,
+        beyond: &mut Waves<f32>,
+        forward: bool,
+        [dt_s, made_for_s]: [f64; 2],
+    ) {
         let across = self.plane.shape()[0] as f64;
         let n = n_exponentials();
         for (mode, [rate, _]) in exponentials(made_for_s).iter().enumerate() {
@@ -289,6 +336,9 @@ impl Heat {
                 }
             }
             self.plane.damp(&mut self.scratch, forward);
+            if let Some(far) = &mut self.far {
+                far.take(&self.plane, mode, beyond, forward);
+            }
             for (waves, block) in self
                 .scratch
                 .chunks(BLOCK)
@@ -313,6 +363,12 @@ impl Heat {
         self.enter(&tables);
         let [one, two] = &mut self.rise;
         self.plane.back(&self.scratch, one);
+        if let Some(far) = &self.far {
+            let [first, second] = &far.rise;
+            for (sum, (first, second)) in one.iter_mut().zip(first.iter().zip(second)) {
+                *sum += first + second;
+            }
+        }
         let across = resistance.iter().zip(&self.exchange).zip(&self.fields[2]);
         for ((one, two), ((across, d), rest)) in one.iter_mut().zip(two).zip(across) {
             let (sum, step) = (*one, across * d + rest);
@@ -333,6 +389,9 @@ impl Heat {
             std::mem::swap(&mut own.last, &mut own.before);
             own.last.0.clone_from(&self.entering[body]);
             std::mem::swap(&mut own.modes, &mut self.next[body]);
+            if let Some(far) = &mut self.far {
+                std::mem::swap(&mut state.far[body], &mut far.next[body]);
+            }
         }
     }
 
@@ -379,6 +438,13 @@ impl Heat {
                 *to = h2 - h1 + made * 0.5 * (a2 - a1) - *d * (a1 + a2);
             });
         self.plane.back(&self.scratch, &mut self.fields[2]);
+        if let Some(far) = &self.far {
+            let [first, second] = &far.rise;
+            for (apart, (first, second)) in self.fields[2].iter_mut().zip(first.iter().zip(second))
+            {
+                *apart += second - first;
+            }
+        }
         let goal = RESIDUAL * dot(made, made).sqrt() * diagonal;
         self.fields[0].clone_from(&self.exchange);
         for (n, across) in resistance.iter().enumerate() {
@@ -534,7 +600,7 @@ mod tests {
     }
 
     /// `assets/reference`, computed by quadrature: an elliptic band (line) and a Hertz circle, steady, on two meshes; `a_to_go`: way
-    /// after which they are. Of a point at Pe .1 the rim, 8 a away, keeps its 4 %.
+    /// after which they are.
     #[test]
     fn steady_sources_have_the_temperatures_of_the_integrals() {
         let band = |x: f64, _: f64| (1.0 - x * x).max(0.0).sqrt();
@@ -555,19 +621,20 @@ mod tests {
             }
         }
         let circle = |x: f64, y: f64| (1.0 - x * x - y * y).max(0.0).sqrt();
-        for (pe, max, mean, room) in [
-            (0.1, 0.769319, 0.57290, 5.0),
-            (1.0, 0.661462, 0.46371, 1.0),
-            (5.0, 0.455558, 0.27881, 1.0),
-            (10.0, 0.353496, 0.20567, 1.0),
-            (100.0, 0.122257, 0.06740, 1.0),
+        for (pe, max, mean, a_to_go) in [
+            (0.1, 0.769319, 0.57290, 60),
+            (1.0, 0.661462, 0.46371, 10),
+            (5.0, 0.455558, 0.27881, 10),
+            (10.0, 0.353496, 0.20567, 10),
+            (100.0, 0.122257, 0.06740, 10),
         ] {
-            for nodes in [65, 129] {
+            let meshes = [65, 129].into_iter();
+            for nodes in meshes.filter(|nodes| pe >= 1.0 || *nodes < 129) {
                 let point = Grid::new(nodes, -2.5, 1.5, 2.0, Symmetry::MirrorY);
-                let found = rise(&point, pe, 10 * (nodes - 1) / 4, point.dx, circle);
+                let found = rise(&point, pe, a_to_go * (nodes - 1) / 4, point.dx, circle);
                 let off = [found[0] / max - 1.0, found[1] / mean - 1.0].map(|off| 100.0 * off);
                 println!("circle, Pe {pe}, {nodes} nodes: greatest, mean off by {off:.2?} %");
-                assert!(off[0].abs() < room && (nodes < 129 || off[1].abs() < room));
+                assert!(off[0].abs() < 1.0 && (nodes < 129 || off[1].abs() < 1.0));
             }
         }
     }
@@ -713,6 +780,52 @@ mod tests {
                 for (found, theirs) in found.into_iter().zip(theirs) {
                     assert!((found / theirs - 1.0).abs() < 0.01, "{found} {theirs}");
                 }
+            }
+        }
+    }
+
+    type Profile<'a> = (Symmetry, &'a dyn Fn(f64) -> f64, [f64; 2]);
+
+    /// Heat that is switched on at rest and goes on until it has spread far beyond the domain, κ t/a² = 10 and 100, and has gone
+    /// through some 20 clearings, mirrored and not (`assets/reference`): a uniform and a Hertz circle at their middle.
+    #[test]
+    fn heat_that_has_left_the_domain_still_warms_it() {
+        let disc = |r: f64| edge(r);
+        let circle = |r: f64| (1.0 - r * r).max(0.0).sqrt();
+        let body = Thermal {
+            conductivity: 1.0,
+            diffusivity: 1.0,
+        };
+        let shapes: [Profile; 2] = [
+            (Symmetry::General, &disc, [0.911164, 0.971802]),
+            (Symmetry::MirrorY, &circle, [0.726125, 0.766598]),
+        ];
+        for (symmetry, q, theirs) in shapes {
+            let grid = Grid::new(65, -2.0, 2.0, 2.0, symmetry);
+            let made: Vec<f64> = (0..grid.len())
+                .map(|n| 2.0 * q(grid.x(n % grid.nx).hypot(grid.y(n / grid.nx))))
+                .collect();
+            let resistance = vec![1e12; grid.len()];
+            let middle = (0..grid.ny)
+                .find(|&j| grid.y(j).abs() < 1e-9)
+                .expect("a row");
+            let found = [10.0, 100.0].map(|fo| {
+                let mut heat = Heat::new(&grid, 1.0, [body; 2], 0.0);
+                let mut state = heat.cold();
+                let step = HeatStep {
+                    dt_s: fo / 320.0,
+                    speeds_m_s: [0.0; 2],
+                    made: &made,
+                    resistance: &resistance,
+                };
+                for _ in 0..320 {
+                    heat.advance(&mut state, &step);
+                }
+                heat.rise[0][middle * grid.nx + (grid.nx - 1) / 2]
+            });
+            println!("{symmetry:?}: {found:.5?}, {theirs:?}");
+            for (found, theirs) in found.into_iter().zip(theirs) {
+                assert!((found / theirs - 1.0).abs() < 0.01, "{found} {theirs}");
             }
         }
     }

@@ -30,6 +30,8 @@ const GAP: usize = 8;
 /// Buffers of one block of rows.
 struct RowWork {
     real: Vec<f64>,
+    /// What the last clearing took of each row, where it is asked for.
+    removed: Vec<f64>,
     scratch: Vec<Complex<f64>>,
 }
 
@@ -55,6 +57,7 @@ pub(super) struct Plane {
     /// Windows along x of a wake that goes along −x and along +x, and along y from the axis (mirrored) or the first row.
     along: [Vec<f64>; 2],
     across: Vec<f64>,
+    splits: [usize; 2],
     /// Of every row of the padded domain that is kept.
     spectrum: Vec<Complex<f64>>,
     /// Columns on their way back.
@@ -99,11 +102,13 @@ impl Plane {
             grid: grid.clone(),
             along: [vec![1.0; px], vec![1.0; px]],
             across: vec![1.0; n_ky],
+            splits: [px; 2],
             columns_out: vec![zero; n_kx * n_ky],
             spectrum: vec![zero; n_ky * (n_kx + GAP)],
             row_work: (0..n_ky.div_ceil(ROWS))
                 .map(|_| RowWork {
                     real: vec![0.0; px],
+                    removed: Vec::new(),
                     scratch: vec![zero; along_rows],
                 })
                 .collect(),
@@ -124,6 +129,35 @@ impl Plane {
         }
     }
 
+    /// Keeps what clearings take away from now on.
+    pub(super) fn keep_removed(&mut self) {
+        for work in &mut self.row_work {
+            work.removed.resize(ROWS * self.px, 0.0);
+        }
+    }
+
+    /// What the last clearing took away, row by row of the padded domain that is kept.
+    pub(super) fn removed(&self) -> impl Iterator<Item = &[f64]> {
+        let blocks = self.row_work.iter();
+        let rows = blocks.flat_map(|work| work.removed.chunks_exact(self.px));
+        rows.take(self.n_ky)
+    }
+
+    /// Points of the padded domain along x and along y.
+    pub(super) fn padded(&self) -> [usize; 2] {
+        [self.px, self.py]
+    }
+
+    /// Length of the padding along x.
+    pub(super) fn padding(&self) -> f64 {
+        (self.px - self.grid.nx) as f64 * self.grid.dx
+    }
+
+    /// The first point along x that stands before the domain, not behind it: of a wake along −x, and along +x.
+    pub(super) fn splits(&self) -> [usize; 2] {
+        self.splits
+    }
+
     /// Clears the padding from now on so that nothing comes round of heat that goes so between two clearings.
     pub(super) fn clear_for(&mut self, heat: Spread) {
         let (grid, px, py) = (&self.grid, self.px, self.py);
@@ -135,6 +169,8 @@ impl Plane {
             [padding - before, spreads + CARRIED * heat.carried / dx],
             [before, spreads],
         ];
+        // Behind the domain along +x there is as much room as the first of both ends is long.
+        self.splits = [ends[1], ends[0]].map(|end| (grid.nx + end[0] as usize).min(px));
         self.along = [[ends[1], ends[0]], ends]
             .map(|ends| (0..px).map(|i| window(i, grid.nx, px, ends)).collect());
         if py > 1 {
@@ -285,6 +321,12 @@ impl Plane {
                     let j = block * ROWS + r;
                     row_back(back, work, &mut line[..n_kx]);
                     let across = across[j];
+                    if let Some(removed) = work.removed.chunks_exact_mut(work.real.len()).nth(r) {
+                        let values = work.real.iter().zip(along);
+                        for (removed, (value, along)) in removed.iter_mut().zip(values) {
+                            *removed = value * (1.0 - across * along);
+                        }
+                    }
                     for (value, along) in work.real.iter_mut().zip(along) {
                         *value *= across * along;
                     }
