@@ -20,7 +20,8 @@ others.";
 
 /// How it is asked for.
 pub(super) const SWEEP_EXAMPLES: &str = "\
-Built in: slide_roll, random_rollers, two_rough_discs, pits_and_wear, life_map, stribeck, lambda, fzg_c, bearing_race, cam_flank.
+Built in: slide_roll, random_rollers, two_rough_discs, pits_and_wear, life_map, stribeck, lambda,
+fzg_c, bearing_race, cam_flank.
 
 Examples:
   asperity sweep slide_roll                      the default scene at 21 values of S, into ./slide_roll.sweep/

@@ -466,6 +466,17 @@ mod tests {
         assert!(reason.contains("body_1.surface.ra_m"), "{reason}");
         assert_eq!(draft.scene, before);
         assert!(shown(&draft, Drawn::MeanHeight(0)).starts_with("0.1 µm"));
+        // Nor is one that is refused for itself and not for a mate: a slope of 3.
+        typed(&mut draft, of(Drawn::MeanHeight(0)), "60");
+        assert!(draft.verdict.is_err());
+        assert!(shown(&draft, Drawn::MeanHeight(0)).starts_with("0.1 µm"));
+        // A row that is turned beyond what is allowed has set nothing, and what was typed stays.
+        draft.turn_to(Form::Point);
+        let amplitude = |choice: &Choice| *choice == Choice::Amplitude(0);
+        draft.row = Choice::POINT.iter().position(amplitude).expect("a row");
+        draft.turn(30);
+        assert!(draft.verdict.is_err());
+        assert!(shown(&draft, Drawn::MeanHeight(0)).starts_with("0.1 µm"));
     }
 
     #[test]

@@ -159,8 +159,8 @@ impl Draft {
         }
         let choice = self.chosen();
         choice.turn(self, by);
-        self.forget_drawn(choice);
-        if self.chosen().keys(&self.scene).is_empty() {
+        if choice.keys(&self.scene).is_empty() {
+            self.forget_drawn(choice);
             self.judge();
         }
     }

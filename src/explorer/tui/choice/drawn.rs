@@ -214,13 +214,6 @@ impl Draft {
         let Some(key) = drawn.key(&self.scene) else {
             return;
         };
-        let known = keys::find(&key);
-        let in_range = known.is_none_or(|known| known.kind.takes(value));
-        if in_range {
-            self.keep();
-            self.drawn.retain(|(own, _)| *own != drawn);
-            self.drawn.push((drawn, value));
-        }
         let of = |one: &Drawn| {
             let value = if *one == drawn {
                 value
@@ -232,6 +225,12 @@ impl Draft {
         let sets: Result<Vec<_>, SceneError> = drawn.together().iter().filter_map(of).collect();
         let made =
             sets.and_then(|sets| Scene::from_toml_with(&self.scene.to_toml(), "the scene", &sets));
+        let in_range = keys::find(&key).is_none_or(|known| known.kind.takes(value));
+        if made.is_ok() || in_range && self.waits_for_a_mate(drawn) {
+            self.keep();
+            self.drawn.retain(|(own, _)| *own != drawn);
+            self.drawn.push((drawn, value));
+        }
         match made {
             Ok(scene) => {
                 self.scene = scene;
@@ -239,6 +238,13 @@ impl Draft {
             }
             Err(error) => self.verdict = Err(error.to_string()),
         }
+    }
+
+    /// Whether a row is not there yet that may make good what a number alone is refused for; an index has its usual value.
+    fn waits_for_a_mate(&self, drawn: Drawn) -> bool {
+        let others = drawn.together().iter().copied();
+        let mut mates = others.filter(|one| *one != drawn && *one != Drawn::Index);
+        mates.any(|one| one.value(self).is_none())
     }
 
     /// Numbers of drawings that another row has made untrue are gone.
