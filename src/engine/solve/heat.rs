@@ -29,7 +29,7 @@ use crate::math::grid::Grid;
 use crate::saved::{Saved, saved};
 use far::Far;
 use plane::{Plane, Spread};
-use symbols::{Symbols, exponentials, n_exponentials};
+use symbols::{Moving, Own, Symbols, exponentials, n_exponentials};
 
 /// Steps between two clearings of the padding; fewer, but not below the second, where heat would come round meanwhile.
 const DAMP_EVERY: u32 = 16;
@@ -41,6 +41,8 @@ const RESIDUAL: f64 = 1e-4;
 const MOST_ITERATIONS: usize = 60;
 /// Péclet number below which heat spreads as fast as it is carried away.
 const SPREADS: f64 = 2.0;
+/// Over how many of the ways that heat spreads in a step it reaches: beyond is e^−9 of it.
+const STEP_SPREADS: f64 = 3.0;
 /// Waves of one task.
 const BLOCK: usize = 64;
 
@@ -131,6 +133,12 @@ saved! {
     Past { parts: modes, last, before; }
 }
 
+/// Of both bodies, for one step length and speed.
+struct Tables {
+    before: [Symbols; 2],
+    own: Own,
+}
+
 /// Temperatures, and what they are computed with.
 ///
 /// A step is begun ([`Heat::begin`]), its heat shared as often as another guess of it comes ([`Heat::share`]), and committed;
@@ -140,21 +148,27 @@ pub struct Heat {
     far: Option<Far>,
     length_m: f64,
     bodies: [Thermal; 2],
-    tables: Option<([Symbols; 2], [f64; 4])>,
+    tables: Option<(Tables, [f64; 4])>,
+    /// Of a step by itself: what its heat reaches in it is near by, so that a fraction of the padding does.
+    brief: Plane,
     /// Rise over the bulk of both surfaces, K.
     pub rise: [Vec<f64>; 2],
     /// q_1, W/m².
     pub into_body_1: Vec<f64>,
     /// d, W/m².
     exchange: Vec<f64>,
-    /// Waves of H_1 and H_2, of q_1 and q_2, of Q, of d (`crossing`; known once a step's heat has been shared) and of what is
-    /// added to it.
-    past: [Vec<Complex<f64>>; 2],
-    entering: [Vec<Complex<f64>>; 2],
+    /// q_2, W/m².
+    into_body_2: Vec<f64>,
+    /// H_1 and H_2, K.
+    past: [Vec<f64>; 2],
+    /// Waves of a step by itself: of Q, of d (`crossing`; known once a step's heat has been shared), of what is added to it, and
+    /// others.
     made: Vec<Complex<f64>>,
     crossing: Vec<Complex<f64>>,
     is_known: bool,
     added: Vec<Complex<f64>>,
+    brief_waves: Vec<Complex<f64>>,
+    /// Waves of all that came before.
     scratch: Vec<Complex<f64>>,
     /// Modes at the end of the step.
     next: [Waves<f32>; 2],
@@ -179,12 +193,14 @@ impl Heat {
         let waves = || vec![Complex::default(); plane.len()];
         let modes = || Waves(vec![Complex::default(); plane.len() * n_exponentials()]);
         Self {
-            past: [waves(), waves()],
-            entering: [waves(), waves()],
-            made: waves(),
-            crossing: waves(),
+            past: [field(), field()],
+            into_body_2: field(),
+            made: Vec::new(),
+            crossing: Vec::new(),
             is_known: false,
-            added: waves(),
+            added: Vec::new(),
+            brief_waves: Vec::new(),
+            brief: Plane::reaching(&plane, 0.0),
             scratch: waves(),
             next: [modes(), modes()],
             plane,
@@ -235,29 +251,7 @@ impl Heat {
         let [v1, v2] = speeds_m_s;
         let asked = [v1, v2, dt_s, state.made_for_s];
         if self.tables.as_ref().is_none_or(|(_, own)| *own != asked) {
-            let mean = 0.5 * (v1 + v2);
-            let spread = self.spread(dt_s, speeds_m_s);
-            self.plane.clear_for(spread);
-            let exponentials = exponentials(state.made_for_s);
-            if let Some(far) = &mut self.far {
-                let moving = (self.bodies, speeds_m_s);
-                far.make_tables(spread, (self.length_m, dt_s), moving, &exponentials);
-            }
-            self.tables = Some((
-                [0, 1].map(|body: usize| {
-                    let speeds = [speeds_m_s[body], mean];
-                    let thermal = self.bodies[body];
-                    Symbols::new(
-                        &self.plane,
-                        self.length_m,
-                        thermal,
-                        speeds,
-                        dt_s,
-                        &exponentials,
-                    )
-                }),
-                asked,
-            ));
+            self.make_tables(dt_s, speeds_m_s, state.made_for_s);
         }
         if state.since >= self.damp_every(dt_s) {
             state.since = 0;
@@ -270,18 +264,53 @@ impl Heat {
             return;
         };
         for (body, own) in state.bodies.iter().enumerate() {
-            history(
-                &tables[body],
-                own,
-                &mut self.next[body].0,
-                &mut self.past[body],
-            );
+            let (table, next) = (&tables.before[body], &mut self.next[body].0);
+            history(table, own, next, &mut self.scratch);
+            let past = &mut self.past[body];
+            self.plane.back(&self.scratch, past);
             if let Some(far) = &mut self.far {
                 far.advance(body, &state.far[body]);
+                for (past, far) in past.iter_mut().zip(&far.rise[body]) {
+                    *past += far;
+                }
             }
         }
         self.exchange.clone_from(&state.exchange);
         self.is_known = false;
+    }
+
+    /// Tables and the plane of a step of that length and speeds.
+    fn make_tables(&mut self, dt_s: f64, speeds_m_s: [f64; 2], made_for_s: f64) {
+        let spread = self.spread(dt_s, speeds_m_s);
+        self.plane.clear_for(spread);
+        let exponentials = exponentials(made_for_s);
+        if let Some(far) = &mut self.far {
+            let moving = (self.bodies, speeds_m_s);
+            far.make_tables(spread, (self.length_m, dt_s), moving, &exponentials);
+        }
+        let u_m_s = 0.5 * (speeds_m_s[0] + speeds_m_s[1]);
+        let moving = speeds_m_s.map(|v_m_s| Moving { v_m_s, u_m_s, dt_s });
+        let apart = 0.5 * (speeds_m_s[0] - speeds_m_s[1]).abs() * dt_s;
+        let spreads = (4.0 * self.fastest_diffusivity() * dt_s).sqrt();
+        let reach = (STEP_SPREADS * spreads + apart) / self.length_m;
+        self.brief = Plane::reaching(&self.plane, reach);
+        let n = self.brief.len();
+        for waves in [
+            &mut self.made,
+            &mut self.crossing,
+            &mut self.added,
+            &mut self.brief_waves,
+        ] {
+            waves.clear();
+            waves.resize(n, Complex::default());
+        }
+        let before = [0, 1].map(|body: usize| {
+            let (thermal, moving) = (self.bodies[body], moving[body]);
+            Symbols::new(&self.plane, self.length_m, thermal, moving, &exponentials)
+        });
+        let own = Own::new(&self.brief, self.length_m, self.bodies, moving);
+        let asked = [speeds_m_s[0], speeds_m_s[1], dt_s, made_for_s];
+        self.tables = Some((Tables { before, own }, asked));
     }
 
     /// Steps between two clearings: where heat spreads as fast as it is carried, it spreads over a quarter of the padding.
@@ -358,25 +387,23 @@ impl Heat {
         let Some((tables, asked)) = self.tables.take() else {
             return;
         };
-        self.solve(made, resistance, &tables);
+        self.solve(made, resistance, &tables.own);
         // T_1 + T_2 from the waves, T_2 − T_1 from what d leaves of its equation.
-        self.enter(&tables);
+        self.enter(&tables.own);
         let [one, two] = &mut self.rise;
-        self.plane.back(&self.scratch, one);
-        if let Some(far) = &self.far {
-            let [first, second] = &far.rise;
-            for (sum, (first, second)) in one.iter_mut().zip(first.iter().zip(second)) {
-                *sum += first + second;
-            }
+        self.brief.back(&self.brief_waves, one);
+        let [first, second] = &self.past;
+        for (sum, (first, second)) in one.iter_mut().zip(first.iter().zip(second)) {
+            *sum += first + second;
         }
         let across = resistance.iter().zip(&self.exchange).zip(&self.fields[2]);
         for ((one, two), ((across, d), rest)) in one.iter_mut().zip(two).zip(across) {
             let (sum, step) = (*one, across * d + rest);
             (*one, *two) = (0.5 * (sum - step), 0.5 * (sum + step));
         }
-        let heat = self.into_body_1.iter_mut().zip(made);
-        for ((to, made), d) in heat.zip(&self.exchange) {
-            *to = 0.5 * made + d;
+        let into = self.into_body_1.iter_mut().zip(&mut self.into_body_2);
+        for ((one, two), (made, d)) in into.zip(made.iter().zip(&self.exchange)) {
+            (*one, *two) = (0.5 * made + d, 0.5 * made - d);
         }
         self.tables = Some((tables, asked));
     }
@@ -385,9 +412,10 @@ impl Heat {
     pub fn commit(&mut self, state: &mut HeatState) {
         state.since += 1;
         state.exchange.clone_from(&self.exchange);
+        let entering = [&self.into_body_1, &self.into_body_2];
         for (body, own) in state.bodies.iter_mut().enumerate() {
             std::mem::swap(&mut own.last, &mut own.before);
-            own.last.0.clone_from(&self.entering[body]);
+            self.plane.forward(entering[body], &mut own.last.0);
             std::mem::swap(&mut own.modes, &mut self.next[body]);
             if let Some(far) = &mut self.far {
                 std::mem::swap(&mut state.far[body], &mut far.next[body]);
@@ -399,51 +427,44 @@ impl Heat {
     pub fn own_of_both(&self) -> f64 {
         self.tables
             .as_ref()
-            .map_or(0.0, |(tables, _)| tables[0].mean + tables[1].mean)
+            .map_or(0.0, |(tables, _)| tables.own.mean)
     }
 
-    /// Waves of q_i = Q/2 ± d, and of T_1 + T_2 = Σ H_i + A_i q_i in `scratch`.
-    fn enter(&mut self, tables: &[Symbols; 2]) {
-        let [first, second] = &mut self.entering;
-        let symbols = tables[0].own.par_iter().zip(&tables[1].own);
-        let histories = self.past[0].par_iter().zip(&self.past[1]);
-        (self.scratch.par_iter_mut().zip(first).zip(second))
+    /// Waves of Σ A_i q_i, q_i = Q/2 ± d.
+    fn enter(&mut self, own: &Own) {
+        let [one, two] = &own.of;
+        (self.brief_waves.par_iter_mut())
             .zip(self.made.par_iter().zip(&self.crossing))
-            .zip(symbols.zip(histories))
+            .zip(one.par_iter().zip(two))
             .with_min_len(BLOCK)
-            .for_each(|((((both, q1), q2), (made, d)), ((a1, a2), (h1, h2)))| {
+            .for_each(|((both, (made, d)), (a1, a2))| {
                 let half = made * 0.5;
-                (*q1, *q2) = (half + d, half - d);
-                *both = h1 + h2 + *q1 * a1 + *q2 * a2;
+                *both = (half + d) * a1 + (half - d) * a2;
             });
     }
 
     /// d of this step, by BiCGStab preconditioned by the diagonal, from the last guess on.
-    fn solve(&mut self, made: &[f64], resistance: &[f64], tables: &[Symbols; 2]) {
+    fn solve(&mut self, made: &[f64], resistance: &[f64], own: &Own) {
         // Fields: 0 x, 2 r, 3 r0, 4 p, 5 v, 6 s or its preconditioned one, 7 t.
-        let diagonal = tables[0].mean + tables[1].mean;
+        let diagonal = own.mean;
         // Right-hand side less the operator on the first guess: H2 − H1 + (A2 − A1) Q/2 − (A1 + A2 + h/k) d.
-        self.plane.forward(made, &mut self.made);
+        self.brief.forward(made, &mut self.made);
         if !self.is_known {
-            self.plane.forward(&self.exchange, &mut self.crossing);
+            self.brief.forward(&self.exchange, &mut self.crossing);
             self.is_known = true;
         }
-        let symbols = tables[0].own.par_iter().zip(&tables[1].own);
-        let histories = self.past[0].par_iter().zip(&self.past[1]);
-        (self.scratch.par_iter_mut())
+        let [one, two] = &own.of;
+        (self.brief_waves.par_iter_mut())
             .zip(self.made.par_iter().zip(&self.crossing))
-            .zip(symbols.zip(histories))
+            .zip(one.par_iter().zip(two))
             .with_min_len(BLOCK)
-            .for_each(|((to, (made, d)), ((a1, a2), (h1, h2)))| {
-                *to = h2 - h1 + made * 0.5 * (a2 - a1) - *d * (a1 + a2);
+            .for_each(|((to, (made, d)), (a1, a2))| {
+                *to = made * 0.5 * (a2 - a1) - *d * (a1 + a2);
             });
-        self.plane.back(&self.scratch, &mut self.fields[2]);
-        if let Some(far) = &self.far {
-            let [first, second] = &far.rise;
-            for (apart, (first, second)) in self.fields[2].iter_mut().zip(first.iter().zip(second))
-            {
-                *apart += second - first;
-            }
+        self.brief.back(&self.brief_waves, &mut self.fields[2]);
+        let [first, second] = &self.past;
+        for (apart, (first, second)) in self.fields[2].iter_mut().zip(first.iter().zip(second)) {
+            *apart += second - first;
         }
         let goal = RESIDUAL * dot(made, made).sqrt() * diagonal;
         self.fields[0].clone_from(&self.exchange);
@@ -466,7 +487,7 @@ impl Heat {
                 self.fields[4][n] =
                     self.fields[2][n] + beta * (self.fields[4][n] - omega * self.fields[5][n]);
             }
-            self.apply(tables, resistance, diagonal, 4, 5);
+            self.apply(own, resistance, diagonal, 4, 5);
             alpha = rho / dot(&self.fields[3], &self.fields[5]);
             for (n, across) in resistance.iter().enumerate() {
                 self.fields[0][n] += alpha * self.fields[4][n] / (across + diagonal);
@@ -476,7 +497,7 @@ impl Heat {
             if dot(&self.fields[2], &self.fields[2]).sqrt() <= goal {
                 break;
             }
-            self.apply(tables, resistance, diagonal, 2, 7);
+            self.apply(own, resistance, diagonal, 2, 7);
             omega = dot(&self.fields[7], &self.fields[2])
                 / dot(&self.fields[7], &self.fields[7]).max(f64::MIN_POSITIVE);
             for (n, across) in resistance.iter().enumerate() {
@@ -496,23 +517,17 @@ impl Heat {
     }
 
     /// The preconditioned operator on field `x`; the waves of the preconditioned one stay in `added`.
-    fn apply(
-        &mut self,
-        tables: &[Symbols; 2],
-        resistance: &[f64],
-        diagonal: f64,
-        x: usize,
-        to: usize,
-    ) {
+    fn apply(&mut self, own: &Own, resistance: &[f64], diagonal: f64, x: usize, to: usize) {
         for (n, across) in resistance.iter().enumerate() {
             self.fields[6][n] = self.fields[x][n] / (across + diagonal);
         }
-        self.plane.forward(&self.fields[6], &mut self.added);
-        (self.scratch.par_iter_mut().zip(&self.added))
-            .zip(tables[0].own.par_iter().zip(&tables[1].own))
+        let [one, two] = &own.of;
+        self.brief.forward(&self.fields[6], &mut self.added);
+        (self.brief_waves.par_iter_mut().zip(&self.added))
+            .zip(one.par_iter().zip(two))
             .with_min_len(BLOCK)
             .for_each(|((wave, added), (one, two))| *wave = added * (one + two));
-        self.plane.back(&self.scratch, &mut self.fields[to]);
+        self.brief.back(&self.brief_waves, &mut self.fields[to]);
         for (n, across) in resistance.iter().enumerate() {
             self.fields[to][n] += across * self.fields[6][n];
         }
@@ -534,26 +549,27 @@ fn history(table: &Symbols, past: &Past, next: &mut [Complex<f32>], out: &mut [C
     (out.par_chunks_mut(BLOCK)
         .zip(next.par_chunks_mut(BLOCK * n)))
     .zip(past.modes.0.par_chunks(BLOCK * n))
-    .zip(table.modes.par_chunks(BLOCK * n))
+    .zip((table.modes.par_chunks(3 * BLOCK * n)).zip(table.lives.par_chunks(n)))
     .zip(table.last.par_chunks(BLOCK))
     .zip(old)
     .for_each(
-        |(((((out, next), modes), factors), by_last), (last, before))| {
-            let mut sums = [Complex::<f32>::default(); BLOCK];
+        |(((((out, next), modes), (factors, lives)), by_last), (last, before))| {
             let width = out.len();
-            let narrow = |c: &Complex<f64>| Complex::new(c.re as f32, c.im as f32);
-            let mut heat = [[Complex::<f32>::default(); 2]; BLOCK];
-            for (heat, (last, before)) in heat.iter_mut().zip(last.iter().zip(before)) {
-                *heat = [narrow(last), narrow(before)];
+            let mut sums = [Complex::<f32>::default(); BLOCK];
+            let mut heat = [[Complex::<f32>::default(); BLOCK]; 2];
+            for (heat, old) in heat.iter_mut().zip([last, before]) {
+                for (heat, old) in heat.iter_mut().zip(old) {
+                    *heat = Complex::new(old.re as f32, old.im as f32);
+                }
             }
+            let heat = [&heat[0][..width], &heat[1][..width]];
             let lines = (next.chunks_exact_mut(width).zip(modes.chunks_exact(width)))
-                .zip(factors.chunks_exact(width));
-            for ((next, modes), factors) in lines {
-                for k in 0..width {
-                    let [decay, here, there] = factors[k];
-                    let now = modes[k] * decay + heat[k][0] * here + heat[k][1] * there;
-                    next[k] = now;
-                    sums[k] += now;
+                .zip(factors.chunks_exact(3 * width).zip(lives));
+            for ((next, modes), (factors, lives)) in lines {
+                if *lives {
+                    of_mode(next, modes, factors, heat, &mut sums[..width]);
+                } else {
+                    next.fill(Complex::default());
                 }
             }
             let wide = |c: Complex<f32>| Complex::new(f64::from(c.re), f64::from(c.im));
@@ -562,6 +578,29 @@ fn history(table: &Symbols, past: &Past, next: &mut [Complex<f32>], out: &mut [C
             }
         },
     );
+}
+
+dispatched! {
+/// A mode of a block at the end of the step, added to the `sums` of all: what is left of it, and what the heat of the last step
+/// and of the last but one adds.
+fn of_mode(
+    next: &mut [Complex<f32>],
+    modes: &[Complex<f32>],
+    factors: &[Complex<f32>],
+    heat: [&[Complex<f32>]; 2],
+    sums: &mut [Complex<f32>],
+) {
+    let n = next.len();
+    let (decay, adds) = factors.split_at(n);
+    let (here, there) = adds.split_at(n);
+    let (modes, sums, there) = (&modes[..n], &mut sums[..n], &there[..n]);
+    let [last, before] = [&heat[0][..n], &heat[1][..n]];
+    for k in 0..n {
+        let now = modes[k] * decay[k] + last[k] * here[k] + before[k] * there[k];
+        next[k] = now;
+        sums[k] += now;
+    }
+}
 }
 
 #[cfg(test)]

@@ -29,7 +29,13 @@ pub(super) struct Far {
     /// Modes at the end of the step.
     pub(super) next: [Waves<f32>; 2],
     waves: Vec<Complex<f64>>,
+    sums: Vec<Complex<f32>>,
     field: Vec<f64>,
+    /// Where columns and rows of the near grid, and columns of its padded one, lie here: the point before, and the part of the
+    /// way to the next one.
+    columns: Vec<(usize, f64)>,
+    rows: Vec<(usize, f64)>,
+    padded_columns: Vec<(usize, f64)>,
     /// Warmth of both bodies on the near grid, K.
     pub(super) rise: [Vec<f64>; 2],
 }
@@ -65,7 +71,15 @@ impl Far {
                 Waves(vec![Complex::default(); all]),
             ],
             waves: vec![zero; plane.len()],
+            sums: vec![Complex::default(); plane.len()],
             field: vec![0.0; grid.len()],
+            columns: (0..near.nx)
+                .map(|i| part_of((near.x(i) - grid.x_min) / grid.dx))
+                .collect(),
+            rows: (0..near.ny)
+                .map(|j| part_of((near.y(j) - grid.y_first) / grid.dy))
+                .collect(),
+            padded_columns: vec![(0, 0.0); px],
             rise: [vec![0.0; near.len()], vec![0.0; near.len()]],
             near: near.clone(),
             padded: [px, py],
@@ -135,6 +149,15 @@ impl Far {
         self.field.fill(0.0);
         let [px, py] = self.padded;
         let split = near.splits()[usize::from(forward)];
+        for (i, column) in self.padded_columns.iter_mut().enumerate() {
+            let i = if i < split {
+                i as f64
+            } else {
+                i as f64 - px as f64
+            };
+            *column =
+                part_of((i * self.near.dx + self.near.x_min - self.grid.x_min) / self.grid.dx);
+        }
         let cell = (COARSE * COARSE) as f64;
         let is_mirrored = self.near.symmetry == Symmetry::MirrorY;
         // Row j of a field that is not mirrored goes round in the middle of its padding.
@@ -145,24 +168,17 @@ impl Far {
                 j => j as f64 - py as f64,
             };
             let y = (y * self.near.dy + self.near.y_first - self.grid.y_first) / self.grid.dy;
-            let (below, part) = (y.floor(), y - y.floor());
-            for (i, &value) in row.iter().enumerate().filter(|(_, value)| **value != 0.0) {
-                let x = if i < split {
-                    i as f64
-                } else {
-                    i as f64 - px as f64
-                };
-                let x = (x * self.near.dx + self.near.x_min - self.grid.x_min) / self.grid.dx;
-                let (left, share) = (x.floor(), x - x.floor());
-                for (row, down) in [(below, 1.0 - part), (below + 1.0, part)] {
+            let (below, part) = part_of(y);
+            let values = row.iter().zip(&self.padded_columns);
+            for (&value, &(left, share)) in values.filter(|(value, _)| **value != 0.0) {
+                for (row, down) in [(below, 1.0 - part), (below + 1, part)] {
                     // The mirrored half adds as much to the row on the axis.
-                    let twice = if is_mirrored && row == 0.0 && j > 0 {
+                    let twice = if is_mirrored && row == 0 && j > 0 {
                         2.0
                     } else {
                         1.0
                     };
-                    for (column, along) in [(left, 1.0 - share), (left + 1.0, share)] {
-                        let (row, column) = (row as usize, column as usize);
+                    for (column, along) in [(left, 1.0 - share), (left + 1, share)] {
                         if row < self.grid.ny && column < self.grid.nx {
                             self.field[row * self.grid.nx + column] +=
                                 value * twice * down * along / cell;
@@ -176,35 +192,58 @@ impl Far {
     /// Modes at the end of a step, and how warm they make the contact.
     pub(super) fn advance(&mut self, body: usize, modes: &Waves<f32>) {
         let n = self.plane.len();
-        self.waves.fill(Complex::default());
+        self.sums.fill(Complex::default());
         let next = self.next[body].0.chunks_exact_mut(n);
         let pairs = modes
             .0
             .chunks_exact(n)
             .zip(self.decay[body].chunks_exact(n));
         for (next, (modes, decay)) in next.zip(pairs) {
-            for (((next, mode), decay), sum) in
-                next.iter_mut().zip(modes).zip(decay).zip(&mut self.waves)
-            {
-                *next = mode * decay;
-                *sum += Complex::new(f64::from(next.re), f64::from(next.im));
+            // What fades before it could leave the near plane is not here.
+            if modes.iter().all(|mode| *mode == Complex::default()) {
+                next.fill(Complex::default());
+            } else {
+                fade(next, modes, decay, &mut self.sums);
             }
+        }
+        for (wide, sum) in self.waves.iter_mut().zip(&self.sums) {
+            *wide = Complex::new(sum.re.into(), sum.im.into());
         }
         self.plane.back(&self.waves, &mut self.field);
         let (grid, near) = (&self.grid, &self.near);
-        for (j, row) in self.rise[body].chunks_exact_mut(near.nx).enumerate() {
-            let y = (near.y(j) - grid.y_first) / grid.dy;
-            let (below, part) = (y as usize, y.fract());
-            for (i, rise) in row.iter_mut().enumerate() {
-                let x = (near.x(i) - grid.x_min) / grid.dx;
-                let (left, share) = (x as usize, x.fract());
+        let lines = self.rise[body].chunks_exact_mut(near.nx);
+        for (rises, &(below, part)) in lines.zip(&self.rows) {
+            let [lower, upper] = [below, below + 1].map(|row| row.min(grid.ny - 1) * grid.nx);
+            for (rise, &(left, share)) in rises.iter_mut().zip(&self.columns) {
+                let right = (left + 1).min(grid.nx - 1);
                 let at = |row: usize| {
-                    let first = row.min(grid.ny - 1) * grid.nx + left;
-                    let next = if left + 1 < grid.nx { first + 1 } else { first };
-                    self.field[first] * (1.0 - share) + self.field[next] * share
+                    self.field[row + left] * (1.0 - share) + self.field[row + right] * share
                 };
-                *rise = at(below) * (1.0 - part) + at(below + 1) * part;
+                *rise = at(lower) * (1.0 - part) + at(upper) * part;
             }
         }
     }
+}
+
+/// The point before a place, and the part of the way to the next one.
+fn part_of(place: f64) -> (usize, f64) {
+    (place.floor() as usize, place - place.floor())
+}
+
+dispatched! {
+/// A mode at the end of the step, added to the `sums` of all.
+fn fade(
+    next: &mut [Complex<f32>],
+    modes: &[Complex<f32>],
+    decay: &[Complex<f32>],
+    sums: &mut [Complex<f32>],
+) {
+    let n = next.len();
+    let (modes, decay, sums) = (&modes[..n], &decay[..n], &mut sums[..n]);
+    for k in 0..n {
+        let now = modes[k] * decay[k];
+        next[k] = now;
+        sums[k] += now;
+    }
+}
 }

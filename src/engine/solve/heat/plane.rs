@@ -11,6 +11,7 @@ use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 use crate::math::grid::{Grid, Symmetry};
+use crate::math::lane_fft::LaneFft;
 
 /// Points of the padded domain over intervals of the domain, along x of a line and along both of a point: where heat is carried
 /// away, and where it spreads as fast as it is carried.
@@ -85,6 +86,25 @@ impl Plane {
             Symmetry::MirrorY => (point * (grid.nx - 1), point * 2 * (grid.ny - 1)),
             Symmetry::General => (point * (grid.nx - 1), point * (grid.ny - 1)),
         };
+        Self::of(grid, px, py)
+    }
+
+    /// With no more padding than what reaches so far needs, in the grid's unit of length, and at most that of `whole`.
+    pub(super) fn reaching(whole: &Self, reach: f64) -> Self {
+        let grid = &whole.grid;
+        let along = |points: usize, step: f64, most: usize| {
+            let reached = (reach / step).ceil().min(most as f64) as usize;
+            LaneFft::good_length(points + reached).min(most)
+        };
+        let py = match grid.symmetry {
+            Symmetry::Line => 1,
+            Symmetry::MirrorY => along(2 * grid.ny - 1, grid.dy, whole.py),
+            Symmetry::General => along(grid.ny, grid.dy, whole.py),
+        };
+        Self::of(grid, along(grid.nx, grid.dx, whole.px), py)
+    }
+
+    fn of(grid: &Grid, px: usize, py: usize) -> Self {
         let n_ky = match grid.symmetry {
             Symmetry::MirrorY => py / 2 + 1,
             Symmetry::Line | Symmetry::General => py,

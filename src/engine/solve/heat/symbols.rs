@@ -55,60 +55,115 @@ pub(super) fn n_exponentials() -> usize {
     (span / SPACING).ceil() as usize + 2
 }
 
-/// Tables of one body for one step length and speed.
-pub(super) struct Symbols {
-    /// (√κ/k_c)(E_0 − E_1): what the heat of now does, and the mean of it over all waves.
-    pub(super) own: Vec<Complex<f64>>,
+/// How a body moves in a step: V and U, m/s, and the step, s.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moving {
+    pub(super) v_m_s: f64,
+    pub(super) u_m_s: f64,
+    pub(super) dt_s: f64,
+}
+
+impl Moving {
+    /// μ and ν of a wave over the step, and the turn of what was before to now.
+    fn of(self, thermal: Thermal, [kx, ky]: [f64; 2]) -> [Complex<f64>; 3] {
+        let Self { v_m_s, u_m_s, dt_s } = self;
+        let spread = thermal.diffusivity * (kx * kx + ky * ky);
+        let mu = Complex::new(spread, kx * v_m_s) * dt_s;
+        let nu = Complex::new(spread, kx * (v_m_s - u_m_s)) * dt_s;
+        [mu, nu, Complex::new(0.0, -kx * u_m_s * dt_s).exp()]
+    }
+}
+
+/// What heat of a step does at its end, to both bodies.
+pub(super) struct Own {
+    /// A_i = (√κ/k_c)(E_0 − E_1).
+    pub(super) of: [Vec<Complex<f64>>; 2],
+    /// The mean of both together over all waves.
     pub(super) mean: f64,
+}
+
+impl Own {
+    /// `length_m`: the plane's unit of length.
+    pub(super) fn new(
+        plane: &Plane,
+        length_m: f64,
+        thermals: [Thermal; 2],
+        moving: [Moving; 2],
+    ) -> Self {
+        let rules = NODES.map(gauss_legendre);
+        let of = [0, 1].map(|body: usize| {
+            let (thermal, moving) = (thermals[body], moving[body]);
+            let scale = scale(thermal) * moving.dt_s.sqrt();
+            let mut own = vec![Complex::default(); plane.len()];
+            (own.par_iter_mut().enumerate())
+                .with_min_len(BLOCK)
+                .for_each(|(k, own)| {
+                    let [_, nu, _] = moving.of(thermal, plane.wave(k).map(|k| k / length_m));
+                    let [whole, first] = over_step(&rules, nu);
+                    *own = (whole - first) * scale;
+                });
+            own
+        });
+        let sum = of.iter().flatten().map(|own| own.re).sum::<f64>();
+        Self {
+            of,
+            mean: sum / plane.len() as f64,
+        }
+    }
+}
+
+/// √κ/k_c.
+fn scale(thermal: Thermal) -> f64 {
+    thermal.diffusivity.sqrt() / thermal.conductivity
+}
+
+/// What heat of the steps before does at the end of a step, to one body.
+pub(super) struct Symbols {
     /// (√κ/k_c) E_1: what that of the last step does, turned to now.
     pub(super) last: Vec<Complex<f64>>,
-    /// Of each mode: e^{−(λ_j + μ)Δt}, and what the heat of the last step and of the last but one adds; in blocks as the modes.
-    pub(super) modes: Vec<[Complex<f32>; 3]>,
+    /// Of each mode: e^{−(λ_j + μ)Δt}, what the heat of the last step and of the last but one adds; in blocks as the modes, of
+    /// each mode one after another.
+    pub(super) modes: Vec<Complex<f32>>,
+    /// Whether a mode of a block is anything after a step: short waves of a slow body have spread by then.
+    pub(super) lives: Vec<bool>,
 }
 
 impl Symbols {
-    /// `length_m`: the plane's unit of length; `v_m_s`, `u_m_s`: V and U.
+    /// `length_m`: the plane's unit of length.
     pub(super) fn new(
         plane: &Plane,
         length_m: f64,
         thermal: Thermal,
-        [v_m_s, u_m_s]: [f64; 2],
-        dt_s: f64,
+        moving: Moving,
         exponentials: &[[f64; 2]],
     ) -> Self {
-        let scale = thermal.diffusivity.sqrt() / thermal.conductivity;
+        let (scale, dt_s) = (scale(thermal), moving.dt_s);
         let rules = NODES.map(gauss_legendre);
-        let (n, zero) = (plane.len(), Complex::default());
-        let (mut own, mut last) = (vec![zero; n], vec![zero; n]);
-        let mut modes = vec![[Complex::default(); 3]; n * exponentials.len()];
-        (own.par_chunks_mut(BLOCK).zip(last.par_chunks_mut(BLOCK)))
-            .zip(modes.par_chunks_mut(BLOCK * exponentials.len()))
+        let (n, n_modes) = (plane.len(), exponentials.len());
+        let mut last = vec![Complex::default(); n];
+        let mut modes = vec![Complex::default(); 3 * n * n_modes];
+        let mut lives = vec![false; n.div_ceil(BLOCK) * n_modes];
+        (last.par_chunks_mut(BLOCK))
+            .zip(modes.par_chunks_mut(3 * BLOCK * n_modes))
+            .zip(lives.par_chunks_mut(n_modes))
             .enumerate()
-            .for_each(|(block, ((own, last), modes))| {
-                let width = own.len();
-                for k in 0..width {
-                    let [kx, ky] = plane.wave(block * BLOCK + k).map(|k| k / length_m);
-                    let spread = thermal.diffusivity * (kx * kx + ky * ky);
-                    let mu = Complex::new(spread, kx * v_m_s) * dt_s;
-                    let nu = Complex::new(spread, kx * (v_m_s - u_m_s)) * dt_s;
-                    let rule = &rules[usize::from(nu.norm_sqr() > NEAR * NEAR)];
-                    let [whole, first] = over_step(rule, nu).map(|e| e * (scale * dt_s.sqrt()));
-                    let turn = Complex::new(0.0, -kx * u_m_s * dt_s).exp();
-                    own[k] = whole - first;
-                    last[k] = first * turn;
+            .for_each(|(block, ((last, modes), lives))| {
+                let width = last.len();
+                for (k, last) in last.iter_mut().enumerate() {
+                    let wave = plane.wave(block * BLOCK + k).map(|k| k / length_m);
+                    let [mu, nu, turn] = moving.of(thermal, wave);
+                    let [_, first] = over_step(&rules, nu);
+                    *last = first * turn * (scale * dt_s.sqrt());
                     for (mode, [rate, weight]) in exponentials.iter().enumerate() {
-                        modes[mode * width + k] =
-                            factors(mu, nu, turn, rate * dt_s, weight * scale * dt_s);
+                        let of_mode = factors(mu, nu, turn, rate * dt_s, weight * scale * dt_s);
+                        lives[mode] |= of_mode != [Complex::default(); 3];
+                        for (part, factor) in of_mode.into_iter().enumerate() {
+                            modes[(3 * mode + part) * width + k] = factor;
+                        }
                     }
                 }
             });
-        let mean = own.iter().map(|own| own.re).sum::<f64>() / n as f64;
-        Self {
-            own,
-            mean,
-            last,
-            modes,
-        }
+        Self { last, modes, lives }
     }
 }
 
@@ -131,11 +186,12 @@ fn factors(
 }
 
 /// ∫_0^1 e^{−z r}/√(π r) dr and ∫_0^1 r e^{−z r}/√(π r) dr, by r = x².
-fn over_step((nodes, weights): &(Vec<f64>, Vec<f64>), z: Complex<f64>) -> [Complex<f64>; 2] {
+fn over_step(rules: &[(Vec<f64>, Vec<f64>); 2], z: Complex<f64>) -> [Complex<f64>; 2] {
     if z.re > LIMIT {
         let whole = z.sqrt().inv();
         return [whole, whole / (2.0 * z)];
     }
+    let (nodes, weights) = &rules[usize::from(z.norm_sqr() > NEAR * NEAR)];
     let mut sums = [Complex::default(); 2];
     for (x, weight) in nodes.iter().zip(weights) {
         let one = (-z * (x * x)).exp() * *weight;
