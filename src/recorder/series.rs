@@ -191,6 +191,7 @@ fn line(code: CautionCode) -> Option<usize> {
         | CautionCode::CoarseCounting
         | CautionCode::CrestsAtEdge
         | CautionCode::ShallowStress
+        | CautionCode::ThermalUnknown
         | CautionCode::LateEvent
         | CautionCode::MapNotSeen
         | CautionCode::OneSample

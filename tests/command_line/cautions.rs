@@ -18,7 +18,7 @@ use rerun::TextDocument;
 use rerun::external::re_log_types::LogMsg;
 
 /// Codes, each with a preset and the keys that plant it.
-const PLANTED: [(&str, &str, &[&str]); 26] = [
+const PLANTED: [(&str, &str, &[&str]); 27] = [
     (
         "not_converged",
         QUICK,
@@ -88,6 +88,11 @@ const PLANTED: [(&str, &str, &[&str]); 26] = [
     ("not_settled", QUICK, &[]),
     ("no_life", QUICK, &["life=none"]),
     ("strength_unknown", QUICK, &["body_2.young_pa=7e10"]),
+    (
+        "thermal_unknown",
+        QUICK,
+        &["body_2.young_pa=7e10", "heat.bulk_k=353"],
+    ),
 ];
 const QUICK: &str = "demonstration_quick";
 /// A scene with a tilted map.

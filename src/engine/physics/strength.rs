@@ -48,7 +48,12 @@ pub const HARDENED_STEEL: Strength = Strength::of(697.0 * PA_PER_HV);
 /// Strength of a body by its Young's modulus: that of hardened steel where it is a steel's. `None`: not steel, and a
 /// modulus alone tells no strength (glass and aluminium have the same).
 pub fn by_young(young_pa: f64) -> Option<Strength> {
-    STEEL_PA.contains(&young_pa).then_some(HARDENED_STEEL)
+    is_steel(young_pa).then_some(HARDENED_STEEL)
+}
+
+/// Whether a Young's modulus is that of a steel.
+pub fn is_steel(young_pa: f64) -> bool {
+    STEEL_PA.contains(&young_pa)
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use crate::math::number::fixed;
 use crate::physics::film_regression;
 use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
+use crate::physics::strength::is_steel;
 use crate::scene::{
     ContactKind, EyringFlow, Knob, Order, OrderAsked, Rheology, Scene, Spread, Surface, SurfaceKind,
 };
@@ -233,6 +234,18 @@ pub(super) fn late_events(scene: &Scene, distance_m: f64) -> impl Iterator<Item 
     late.map(move |event| Warning::LateEvent {
         at_s: event.at_s,
         end_s,
+    })
+}
+
+/// Bodies that are not steel and whose heat the scene does not describe, where it is followed.
+pub(super) fn thermal_unknown(scene: &Scene) -> impl Iterator<Item = Warning> {
+    let bodies = (1..).zip([&scene.body_1, &scene.body_2]);
+    let unknown = bodies.filter(|(_, body)| {
+        scene.heat.is_some() && body.heat.is_none() && !is_steel(body.young_pa)
+    });
+    unknown.map(|(body, of)| Warning::ThermalUnknown {
+        body,
+        young_pa: of.young_pa,
     })
 }
 

@@ -288,6 +288,7 @@ impl Plan {
         let distance_m = scene.time.passages * PASSAGE_A * hertz.a_m;
         let doubts = surfaces::doubts(scene, hertz.a_m.min(hertz.b_m));
         warnings.extend(doubts.chain(decide::late_events(scene, distance_m)));
+        warnings.extend(decide::thermal_unknown(scene));
         let steps = match time_dependence {
             TimeDependence::Steady { .. } => 1,
             TimeDependence::Transient => (distance_m / step_m).ceil() as u64,

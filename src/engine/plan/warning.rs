@@ -133,6 +133,16 @@ pub enum Warning {
         /// End of the run, s.
         end_s: f64,
     },
+    /// A body that is not steel warms as steel does.
+    #[error(
+        "body {body} is not steel (body_{body}.young_pa = {young_pa:e}) and warms as bearing steel does, for want of its own conductivity, density and heat capacity (body_{body}.heat)"
+    )]
+    ThermalUnknown {
+        /// Body, 1 or 2.
+        body: u8,
+        /// Its modulus, Pa.
+        young_pa: f64,
+    },
     /// The stress integral is cut off.
     #[error("stress.depth_max_a = {depth_max_a} cuts the life integral short; use 2 or more")]
     ShallowStress {

@@ -7,7 +7,7 @@
 //! map_doubtful   the best plane, or outlying pixels, of a height map are left in
 //! mesh_film      error of the smooth central film by the mesh > 5 %             at the knobs' present values
 //! short_domain   the same by the edges of the domain > 1 %                      likewise
-//! long_step, coarse_wave, coarse_convected_wave, coarse_counting, crests_at_edge, shallow_stress
+//! long_step, coarse_wave, coarse_convected_wave, coarse_counting, crests_at_edge, shallow_stress, thermal_unknown
 //!                what the plan warns of                                         at the knobs' present values
 //! late_event     an event of the scene after the end of its run: of a run, not of a step
 //! map_not_seen   a height map of which a part has not passed yet
@@ -66,6 +66,8 @@ pub enum CautionCode {
     CrestsAtEdge,
     /// The stress volume cuts the life integral short.
     ShallowStress,
+    /// A body that is not steel warms as steel does.
+    ThermalUnknown,
     /// An event comes after the end of the run.
     LateEvent,
     /// A part of a height map has not passed yet.
@@ -313,7 +315,15 @@ fn resolution(m: &Metrics, grounds: &Grounds) -> Vec<Warning> {
     let edge = (grounds.crests_at_edge_m).map(|crests_m| Warning::CrestsAtEdge { crests_m });
     let depth =
         (grounds.shallow_stress_a).map(|depth_max_a| Warning::ShallowStress { depth_max_a });
-    coarse.into_iter().chain(edge).chain(depth).collect()
+    let thermal = (1..).zip(grounds.thermal_unknown_pa);
+    let thermal = thermal
+        .filter_map(|(body, pa)| pa.map(|young_pa| Warning::ThermalUnknown { body, young_pa }));
+    coarse
+        .into_iter()
+        .chain(edge)
+        .chain(depth)
+        .chain(thermal)
+        .collect()
 }
 
 fn map_not_seen(grounds: &Grounds) -> Vec<String> {
@@ -366,6 +376,7 @@ impl CautionCode {
             Warning::LongStep { .. } => Self::LongStep,
             Warning::NoFilm { .. } => Self::FilmBelowMolecule,
             Warning::LateEvent { .. } => Self::LateEvent,
+            Warning::ThermalUnknown { .. } => Self::ThermalUnknown,
             Warning::ShallowStress { .. } => Self::ShallowStress,
         }
     }
@@ -666,9 +677,9 @@ mod tests {
     fn what_the_plan_warns_of_is_a_caution_at_the_knobs_of_now() {
         use CautionCode::{
             CoarseConvectedWave, CoarseCounting, CoarseWave, CrestsAtEdge, LongStep, MapNotSeen,
-            OneSample, ShallowStress,
+            OneSample, ShallowStress, ThermalUnknown,
         };
-        let table: [(CautionCode, &str, Spoil); 8] = [
+        let table: [(CautionCode, &str, Spoil); 9] = [
             (OneSample, "without waves below 60.0 µm", |m, g| {
                 m.amplitude_1_m = 1e-7;
                 g.cutoffs_m = [Some(60e-6), Some(20e-6)];
@@ -696,6 +707,9 @@ mod tests {
             }),
             (ShallowStress, "stress.depth_max_a = 1.2", |_, g| {
                 g.shallow_stress_a = Some(1.2);
+            }),
+            (ThermalUnknown, "body_2.heat", |_, g| {
+                g.thermal_unknown_pa[1] = Some(7e10);
             }),
             (MapNotSeen, "0.50 of the 2.00 mm of body 2's map", |_, g| {
                 g.map_seen_m[1] = Some([0.5e-3, 2e-3]);

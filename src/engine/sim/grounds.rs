@@ -56,6 +56,8 @@ pub struct Grounds {
     pub crests_at_edge_m: Option<f64>,
     /// Deepest point of the stress, in a, where it cuts the life integral short.
     pub shallow_stress_a: Option<f64>,
+    /// Young's modulus of body 1 and 2, Pa, where it is not steel and warms as steel does.
+    pub thermal_unknown_pa: [Option<f64>; 2],
     /// How much of the map of body 1 and 2 has passed, and how long it is, m; `None`: it has none, or all of it has.
     pub map_seen_m: [Option<[f64; 2]>; 2],
     /// How much body 1 and 2 feel of the crests of the other, 0 to 1.

@@ -268,6 +268,12 @@ fn grounds_of(scene: &Scene, decided: &Plan) -> Grounds {
             Warning::ShallowStress { depth_max_a } => Some(*depth_max_a),
             _ => None,
         }),
+        thermal_unknown_pa: [1, 2].map(|of| {
+            decided.warnings.iter().find_map(|warning| match *warning {
+                Warning::ThermalUnknown { body, young_pa } if body == of => Some(young_pa),
+                _ => None,
+            })
+        }),
         measure: scene.stress.as_ref().map(|stress| stress.measure),
         strength: [&scene.body_1, &scene.body_2].map(|body| match body.hardness_pa {
             Some(hardness_pa) if hardness_pa.is_finite() => Some(Strength::of(hardness_pa)),

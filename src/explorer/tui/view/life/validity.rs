@@ -71,6 +71,7 @@ fn name(caution: &Caution) -> &'static str {
         CautionCode::CoarseCounting => "coarse counting",
         CautionCode::CrestsAtEdge => "crests at edge",
         CautionCode::ShallowStress => "shallow stress",
+        CautionCode::ThermalUnknown => "heat of steel",
         CautionCode::LateEvent => "late event",
         CautionCode::MapNotSeen => "map not seen",
         CautionCode::OneSample => "one sample",
