@@ -12,6 +12,7 @@ use asperity_study::heat::{heat, heat_report};
 use asperity_study::scaling::{scaling, scaling_report};
 use asperity_study::stability::{stability, stability_report};
 use asperity_study::story::{story, story_report};
+use asperity_study::wear::{wear, wear_report};
 use asperity_study::{Extent, Report, StudyError, StudyProgress, machine};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -85,6 +86,7 @@ fn measured(args: &StudyArgs, progress: &mut StudyProgress) -> Result<Report, St
         StudyKind::Scaling => Ok(scaling_report(&scaling(extent, only, progress)?)),
         StudyKind::Heat => Ok(heat_report(&heat(extent, only, threads, progress)?)),
         StudyKind::Story => Ok(story_report(&story(extent, only, threads, progress)?)),
+        StudyKind::Wear => Ok(wear_report(&wear(extent, only, threads, progress)?)),
         StudyKind::Evidence => {
             let result = evidence(extent, only, threads, args.out.as_deref(), progress)?;
             let agreement = agreement_plot(&result).map_err(StudyError::Plot)?;

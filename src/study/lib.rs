@@ -8,6 +8,7 @@ pub mod scaling;
 pub mod stability;
 pub mod story;
 mod table;
+pub mod wear;
 
 pub use machine::machine;
 pub use table::{MarkdownTable, figure};

@@ -78,6 +78,8 @@ pub(crate) enum StudyKind {
     Heat,
     /// Life of the first scene against S on every mesh, by both counts, with what takes it
     Story,
+    /// Pits after ten million cycles without wear and with it, against S, lambda and along a tooth, beside what was published
+    Wear,
 }
 
 #[cfg(test)]

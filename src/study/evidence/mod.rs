@@ -19,7 +19,7 @@ use kept::Kept;
 pub use kept::kept_in;
 use measure::SHRINKING;
 pub use plot::{agreement_plot, experiments_plot};
-pub use random::{AssumedRoughness, MadeRatio, MadeVariant, MadeWay, TriedPairs, Verdict};
+pub use random::{AssumedRoughness, MadeRatio, MadeVariant, MadeWay, TriedPairs, Verdict, student};
 pub use report::{evidence_table, evidence_text};
 pub use set::{
     Comparison, EvidenceCase, EvidenceClaim, EvidenceNumber, EvidencePoint, EvidenceSet,

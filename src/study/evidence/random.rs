@@ -24,6 +24,11 @@ const STUDENT: [f64; 9] = [
     6.314, 2.920, 2.353, 2.132, 2.015, 1.943, 1.895, 1.860, 1.833,
 ];
 
+/// Standard errors either way that hold the mean of `n` numbers, 2 and more, with 90 %.
+pub fn student(n: usize) -> f64 {
+    STUDENT[n.saturating_sub(2).min(STUDENT.len() - 1)]
+}
+
 /// What is assumed of the roughness beside its Rq: the facts at hand do not give it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -192,8 +197,7 @@ impl MadeRatio {
         if found.n < 2 || found.n < ratios.len() {
             return None;
         }
-        let t = STUDENT[(found.n - 2).min(STUDENT.len() - 1)];
-        let factor = found.of_mean().powf(t);
+        let factor = found.of_mean().powf(student(found.n));
         let range = [found.mean / factor, found.mean * factor];
         let [least, most] = window(claim);
         let verdict = if range.iter().all(|end| holds(claim, *end)) {
