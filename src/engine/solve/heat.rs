@@ -289,7 +289,10 @@ impl Heat {
             far.make_tables(spread, (self.length_m, dt_s), moving, &exponentials);
         }
         let u_m_s = 0.5 * (speeds_m_s[0] + speeds_m_s[1]);
-        let moving = speeds_m_s.map(|v_m_s| Moving { v_m_s, u_m_s, dt_s });
+        let moving = speeds_m_s.map(|v_m_s| Moving {
+            speeds_m_s: [v_m_s, u_m_s],
+            dt_s,
+        });
         let apart = 0.5 * (speeds_m_s[0] - speeds_m_s[1]).abs() * dt_s;
         let spreads = (4.0 * self.fastest_diffusivity() * dt_s).sqrt();
         let reach = (STEP_SPREADS * spreads + apart) / self.length_m;

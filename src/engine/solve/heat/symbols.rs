@@ -58,15 +58,17 @@ pub(super) fn n_exponentials() -> usize {
 /// How a body moves in a step: V and U, m/s, and the step, s.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moving {
-    pub(super) v_m_s: f64,
-    pub(super) u_m_s: f64,
+    pub(super) speeds_m_s: [f64; 2],
     pub(super) dt_s: f64,
 }
 
 impl Moving {
     /// μ and ν of a wave over the step, and the turn of what was before to now.
     fn of(self, thermal: Thermal, [kx, ky]: [f64; 2]) -> [Complex<f64>; 3] {
-        let Self { v_m_s, u_m_s, dt_s } = self;
+        let Self {
+            speeds_m_s: [v_m_s, u_m_s],
+            dt_s,
+        } = self;
         let spread = thermal.diffusivity * (kx * kx + ky * ky);
         let mu = Complex::new(spread, kx * v_m_s) * dt_s;
         let nu = Complex::new(spread, kx * (v_m_s - u_m_s)) * dt_s;
