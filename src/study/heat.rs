@@ -207,7 +207,7 @@ pub fn heat_report(warmed: &[Warmed]) -> Report {
     let text = format!(
         "{}\nFriction and life: cold, warm with S0 = 1.1 and the change; with S0 = 0.8 and 1.4. Greatest temperatures are those of \
          asperities, formulas those of smooth surfaces. The bulk is at 80 °C; oil 0.14 W/(m K), 870 kg/m³, 2000 J/(kg K); \
-         steel 46 W/(m K), 7850 kg/m³, 470 J/(kg K): values as handbooks have them, no preset's own. {unconverged} of {} runs have steps that did \
+         steel 46 W/(m K), 7850 kg/m³, 470 J/(kg K): values as handbooks have them (ball_on_glass: its disc is of glass, by its own values). {unconverged} of {} runs have steps that did \
          not converge.\n",
         table.markdown(),
         runs().count()
