@@ -10,11 +10,10 @@ use std::sync::Arc;
 
 use super::{
     Extent, MarkdownTable, Report, StudyError, StudyProgress, climb, figure, planned,
-    refuse_nothing, scene_with,
+    refuse_nothing, run_all, scene_with,
 };
 use asperity_engine::plan::LeftHeat;
 use asperity_engine::sim::Summary;
-use asperity_session::run::share_out;
 
 /// Presets that slide, each with S where its own is 0, and nodes of a quick and of a usual run.
 const PRESETS: [(&str, Option<f64>, [usize; 2]); 11] = [
@@ -113,17 +112,7 @@ pub fn heat(
     });
     let asked: Vec<Asked> = asked.collect();
     refuse_nothing(only, asked.is_empty())?;
-    let all = asked.len();
-    let found = share_out(&asked, threads, Asked::run, &mut |one: &Asked, begun| {
-        progress(&one.name(), begun, all);
-    });
-    let named = found.into_iter().zip(&asked).map(|(found, asked)| {
-        found.map_err(|reason| StudyError::Run {
-            case: asked.name(),
-            reason,
-        })
-    });
-    let found: Vec<_> = named.collect::<Result<_, _>>()?;
+    let found = run_all(&asked, threads, Asked::name, Asked::run, progress)?;
     let warmed = found
         .chunks_exact(EXPONENTS.len())
         .zip(asked.chunks_exact(EXPONENTS.len()));

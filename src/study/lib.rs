@@ -18,7 +18,7 @@ use std::sync::Arc;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
 use asperity_engine::sim::Summary;
-use asperity_session::run::{End, Ending, Request, Session};
+use asperity_session::run::{End, Ending, Request, Session, share_out};
 use thiserror::Error;
 
 /// How much to measure.
@@ -94,6 +94,29 @@ fn scene_with(preset: &str, sets: &[String]) -> Result<Scene, String> {
 fn planned(scene: Scene) -> Result<(Scene, Plan), String> {
     let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
     Ok((scene, plan))
+}
+
+/// Runs all that is asked, so many at a time, each heard of by its name.
+///
+/// # Errors
+/// [`StudyError::Run`] of the first that fails.
+fn run_all<A: Sync, R: Send>(
+    asked: &[A],
+    threads: usize,
+    name: impl Fn(&A) -> String,
+    run: impl Fn(&A) -> Result<R, String> + Sync,
+    progress: &mut StudyProgress,
+) -> Result<Vec<R>, StudyError> {
+    let found = share_out(asked, threads, run, &mut |one: &A, begun| {
+        progress(&name(one), begun, asked.len());
+    });
+    let named = found.into_iter().zip(asked).map(|(found, asked)| {
+        found.map_err(|reason| StudyError::Run {
+            case: name(asked),
+            reason,
+        })
+    });
+    named.collect()
 }
 
 /// What a finished run tells.

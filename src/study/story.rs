@@ -10,11 +10,10 @@ use std::sync::Arc;
 
 use super::{
     Extent, MarkdownTable, Report, StudyError, StudyProgress, climb, figure, planned,
-    refuse_nothing, scene_with,
+    refuse_nothing, run_all, scene_with,
 };
 use asperity_engine::scene::presets;
 use asperity_engine::sim::Summary;
-use asperity_session::run::share_out;
 
 /// Lengths of life from S = 0 to .5 that a first scene has to lose.
 pub const FALL: f64 = 5.0;
@@ -117,19 +116,7 @@ pub fn story(
     let mut asked = Asked::all(extent);
     asked.retain(|one| only.is_none_or(|only| one.name().contains(only)));
     refuse_nothing(only, asked.is_empty())?;
-    let all = asked.len();
-    let told = share_out(&asked, threads, Asked::run, &mut |one: &Asked, begun| {
-        progress(&one.name(), begun, all);
-    });
-    let named = told.into_iter().zip(&asked);
-    named
-        .map(|(told, asked)| {
-            told.map_err(|reason| StudyError::Run {
-                case: asked.name(),
-                reason,
-            })
-        })
-        .collect()
+    run_all(&asked, threads, Asked::name, Asked::run, progress)
 }
 
 /// What the first scene shows: how many times shorter it lives at S = .5 than at 0, and by how much the longest life

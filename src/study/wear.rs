@@ -14,12 +14,13 @@ use std::sync::Arc;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{CycleBasis, Scene};
 use asperity_engine::sim::Summary;
-use asperity_session::run::share_out;
 
 use super::evidence::{
     AssumedRoughness, EvidencePoint, EvidenceSet, MadeWay, Verdict, planned, student,
 };
-use super::{Extent, MarkdownTable, Report, StudyError, StudyProgress, climb, refuse_nothing};
+use super::{
+    Extent, MarkdownTable, Report, StudyError, StudyProgress, climb, refuse_nothing, run_all,
+};
 
 /// Coefficient of both bodies, 1/Pa: none, and that of mild wear.
 const COEFFICIENTS: [f64; 2] = [0.0, 5e-18];
@@ -122,104 +123,64 @@ fn places(set: &EvidenceSet) -> Result<Vec<Place>, StudyError> {
     Ok(places)
 }
 
-/// What was published, as more pits here than there.
-struct Claim {
-    says: &'static str,
-    more: &'static str,
-    less: &'static str,
-    /// Which of [`COEFFICIENTS`]; `None`: what wear takes away is compared.
-    with: Option<usize>,
+/// What two cases are compared by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Compared {
+    Without,
+    With,
+    /// The one less the other.
+    Taken,
 }
+use Compared::{Taken, With, Without};
 
-const CLAIMS: [Claim; 12] = {
-    const fn claim(
-        says: &'static str,
-        more: &'static str,
-        less: &'static str,
-        with: Option<usize>,
-    ) -> Claim {
-        Claim {
-            says,
-            more,
-            less,
-            with,
+impl Compared {
+    fn words(self) -> &'static str {
+        match self {
+            Without => "without wear",
+            With => "with wear",
+            Taken => "what wear takes away",
         }
     }
-    [
-        claim(
-            "without wear more at S .05 than at .005",
-            "discs, S .05",
-            "discs, S .005",
-            Some(0),
-        ),
-        claim(
-            "with wear more at S .01 than at .05",
-            "discs, S .01",
-            "discs, S .05",
-            Some(1),
-        ),
-        claim(
-            "wear takes more at S .05 than at .005",
-            "discs, S .05",
-            "discs, S .005",
-            None,
-        ),
-        claim(
-            "without wear more at lambda .25 than at .6",
-            "discs, S .02",
-            "discs, lambda .6",
-            Some(0),
-        ),
-        claim(
-            "without wear more at lambda .6 than at 1",
-            "discs, lambda .6",
-            "discs, lambda 1",
-            Some(0),
-        ),
-        claim(
-            "with wear more at lambda 1 than at .25",
-            "discs, lambda 1",
-            "discs, S .02",
-            Some(1),
-        ),
-        claim(
-            "wear takes more at lambda .25 than at 1",
-            "discs, S .02",
-            "discs, lambda 1",
-            None,
-        ),
-        claim(
-            "tooth, without wear: more at 22.38 than at 24.92",
-            "22.38 deg",
-            "24.92 deg",
-            Some(0),
-        ),
-        claim(
-            "tooth, without wear: more at 24.92 than at 27.14",
-            "24.92 deg",
-            "27.14 deg",
-            Some(0),
-        ),
-        claim(
-            "tooth, with wear: more at 24.92 than at 22.38",
-            "24.92 deg",
-            "22.38 deg",
-            Some(1),
-        ),
-        claim(
-            "tooth, with wear: more at 27.14 than at 24.92",
-            "27.14 deg",
-            "24.92 deg",
-            Some(1),
-        ),
-        claim(
-            "tooth: wear takes more at 22.38 than at 27.14",
-            "22.38 deg",
-            "27.14 deg",
-            None,
-        ),
-    ]
-};
+}
+
+/// A case: of its bodies what its source gives, or one of them.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    label: &'static str,
+    body: Option<usize>,
+}
+
+const fn at(label: &'static str) -> Side {
+    Side { label, body: None }
+}
+
+const fn of_body(label: &'static str, body: usize) -> Side {
+    Side {
+        label,
+        body: Some(body),
+    }
+}
+
+/// What was published, as more pits here than there.
+const CLAIMS: [(Compared, Side, Side); 13] = [
+    (Without, at("discs, S .05"), at("discs, S .005")),
+    (With, at("discs, S .01"), at("discs, S .05")),
+    (Taken, at("discs, S .05"), at("discs, S .005")),
+    (Without, at("discs, S .02"), at("discs, lambda .6")),
+    (Without, at("discs, lambda .6"), at("discs, lambda 1")),
+    (With, at("discs, lambda 1"), at("discs, S .02")),
+    (Taken, at("discs, S .02"), at("discs, lambda 1")),
+    (
+        Without,
+        of_body("smooth under rough", 1),
+        of_body("smooth under rough", 2),
+    ),
+    (Without, at("22.38 deg"), at("24.92 deg")),
+    (Without, at("24.92 deg"), at("27.14 deg")),
+    (With, at("24.92 deg"), at("22.38 deg")),
+    (With, at("27.14 deg"), at("24.92 deg")),
+    (Taken, at("22.38 deg"), at("27.14 deg")),
+];
 
 /// A run: a case, one of [`COEFFICIENTS`] and a pair of surfaces.
 struct Asked<'a> {
@@ -324,17 +285,7 @@ pub fn wear(
             }));
         }
     }
-    let all = asked.len();
-    let found = share_out(&asked, threads, Asked::run, &mut |one: &Asked, begun| {
-        progress(&one.name(), begun, all);
-    });
-    let named = found.into_iter().zip(&asked).map(|(found, asked)| {
-        found.map_err(|reason| StudyError::Run {
-            case: asked.name(),
-            reason,
-        })
-    });
-    let found: Vec<Summary> = named.collect::<Result<_, _>>()?;
+    let found = run_all(&asked, threads, Asked::name, Asked::run, progress)?;
     let part = |s: &Summary| [s.pitted_area_1, s.pitted_area_2].map(|a| a.unwrap_or(f64::NAN));
     let of_place = |(place, runs): (&Place, &[Summary])| {
         let (without, with) = runs.split_at(pairs as usize);
@@ -350,15 +301,26 @@ pub fn wear(
 }
 
 /// Mean and half-width of the range of a claim's difference, and what it says; `None`: a case was not run.
-fn judged(claim: &Claim, all: &[Pitted]) -> Option<([f64; 2], Verdict)> {
-    let at = |label: &str| all.iter().find(|one| one.place.point.label == label);
-    let (more, less) = (at(claim.more)?, at(claim.less)?);
-    let value = |one: &Pitted, pair: usize| {
-        let of = |with: usize| of_interest(&one.place, one.parts[with][pair]);
-        claim.with.map_or_else(|| of(0) - of(1), of)
+fn judged(
+    (compared, more, less): (Compared, Side, Side),
+    all: &[Pitted],
+) -> Option<([f64; 2], Verdict)> {
+    let of = |side: Side| {
+        let one = all.iter().find(|one| one.place.point.label == side.label)?;
+        let part = move |with: usize, pair: usize| {
+            let part = one.parts[with][pair];
+            side.body
+                .map_or_else(|| of_interest(&one.place, part), |body| part[body - 1])
+        };
+        let value = move |pair| match compared {
+            Without => part(0, pair),
+            With => part(1, pair),
+            Taken => part(0, pair) - part(1, pair),
+        };
+        Some((0..one.parts[0].len()).map(value).collect::<Vec<f64>>())
     };
-    let differences: Vec<f64> = (0..more.parts[0].len())
-        .map(|pair| value(more, pair) - value(less, pair))
+    let differences: Vec<f64> = (of(more)?.iter().zip(of(less)?))
+        .map(|(more, less)| more - less)
         .collect();
     let n = differences.len() as f64;
     let mean = differences.iter().sum::<f64>() / n;
@@ -372,6 +334,20 @@ fn judged(claim: &Claim, all: &[Pitted]) -> Option<([f64; 2], Verdict)> {
         Verdict::NotDecided
     };
     Some(([mean, half], verdict))
+}
+
+/// A claim in words.
+fn says((compared, more, less): (Compared, Side, Side)) -> String {
+    let words = |side: Side| match side.body {
+        Some(body) => format!("{}, body {body}", side.label),
+        None => side.label.to_owned(),
+    };
+    format!(
+        "{}: more at {} than at {}",
+        compared.words(),
+        words(more),
+        words(less)
+    )
 }
 
 /// The report.
@@ -393,13 +369,12 @@ pub fn wear_report(all: &[Pitted]) -> Report {
         ("seconds", |one| format!("{:.0}", one.seconds)),
     ];
     let table = MarkdownTable::of(all, &columns);
-    let claims = CLAIMS.iter().filter_map(|claim| {
+    let claims = CLAIMS.iter().filter_map(|&claim| {
         let ([mean, half], verdict) = judged(claim, all)?;
         let [mean, half] = [mean, half].map(|v| 100.0 * v);
+        let (says, verdict) = (says(claim), verdict.name());
         Some(format!(
-            "- {}: {mean:+.1} ± {half:.1} points: {}\n",
-            claim.says,
-            verdict.name()
+            "- {says}: {mean:+.1} ± {half:.1} points: {verdict}\n"
         ))
     });
     let claims: String = claims.collect();
@@ -456,19 +431,19 @@ mod tests {
         let worn = even([0.0; 3]);
         let more = found("discs, S .05", [even([0.05, 0.06, 0.08]), worn.clone()]);
         let less = found("discs, S .005", [even([0.03, 0.03, 0.04]), worn]);
-        let claim = &CLAIMS[0];
+        let claim @ (compared, here, there) = CLAIMS[0];
         let ([mean, half], verdict) = judged(claim, &[more.clone(), less.clone()]).unwrap();
         assert!((mean - 0.03).abs() < 1e-12 && (half - 2.920 * 0.01 / 3_f64.sqrt()).abs() < 1e-12);
         assert_eq!(verdict, Verdict::Met);
         // The other way round it holds nowhere; with S .005 alone it is not judged.
-        let turned = Claim {
-            more: claim.less,
-            less: claim.more,
-            ..*claim
-        };
-        let (_, verdict) = judged(&turned, &[more, less.clone()]).unwrap();
+        let turned = (compared, there, here);
+        let (_, verdict) = judged(turned, &[more.clone(), less.clone()]).unwrap();
         assert_eq!(verdict, Verdict::NotMet);
-        assert!(judged(claim, &[less]).is_none());
+        assert!(judged(claim, std::slice::from_ref(&less)).is_none());
+        // Half and one and a half times as much: of S .05 body 2 has more by what both have on average.
+        let bodies = (Taken, of_body(here.label, 2), of_body(here.label, 1));
+        let ([mean, _], _) = judged(bodies, &[more]).unwrap();
+        assert!((mean - (0.05 + 0.06 + 0.08) / 3.0).abs() < 1e-12);
     }
 
     #[test]
@@ -476,12 +451,8 @@ mod tests {
         let set = EvidenceSet::shipped().unwrap();
         let places = places(&set).unwrap();
         let labels: Vec<_> = places.iter().map(|one| &one.point.label[..]).collect();
-        for claim in &CLAIMS {
-            assert!(
-                labels.contains(&claim.more) && labels.contains(&claim.less),
-                "{}",
-                claim.says
-            );
+        for (_, more, less) in CLAIMS {
+            assert!(labels.contains(&more.label) && labels.contains(&less.label));
         }
         for place in &places {
             let asked = Asked {
