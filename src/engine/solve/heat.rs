@@ -17,7 +17,9 @@
 //! Of a point contact whose Péclet number V a/κ is below 2 what is cleared counts, and goes on in [`far`].
 //! Sources: Blok (1937); Jaeger (1942); Carslaw and Jaeger (1959).
 
+mod exchange;
 mod far;
+mod history;
 mod plane;
 mod symbols;
 
@@ -28,6 +30,7 @@ use serde::{Deserialize, Serialize};
 use crate::math::grid::Grid;
 use crate::saved::{Saved, saved};
 use far::Far;
+use history::history;
 use plane::{Plane, Spread};
 use symbols::{Moving, Own, Symbols, exponentials, n_exponentials};
 
@@ -36,9 +39,6 @@ const DAMP_EVERY: u32 = 16;
 const DAMP_OFTEN: u32 = 4;
 /// Decay over a step, as an exponent, beyond which a mode has nothing left to say after it.
 const GONE: f64 = 16.0;
-/// Relative residual of d, and most iterations.
-const RESIDUAL: f64 = 1e-4;
-const MOST_ITERATIONS: usize = 60;
 /// Péclet number below which heat spreads as fast as it is carried away.
 const SPREADS: f64 = 2.0;
 /// Over how many of the ways that heat spreads in a step it reaches: beyond is e^−9 of it.
@@ -445,165 +445,6 @@ impl Heat {
                 *both = (half + d) * a1 + (half - d) * a2;
             });
     }
-
-    /// d of this step, by BiCGStab preconditioned by the diagonal, from the last guess on.
-    fn solve(&mut self, made: &[f64], resistance: &[f64], own: &Own) {
-        // Fields: 0 x, 2 r, 3 r0, 4 p, 5 v, 6 s or its preconditioned one, 7 t.
-        let diagonal = own.mean;
-        // Right-hand side less the operator on the first guess: H2 − H1 + (A2 − A1) Q/2 − (A1 + A2 + h/k) d.
-        self.brief.forward(made, &mut self.made);
-        if !self.is_known {
-            self.brief.forward(&self.exchange, &mut self.crossing);
-            self.is_known = true;
-        }
-        let [one, two] = &own.of;
-        (self.brief_waves.par_iter_mut())
-            .zip(self.made.par_iter().zip(&self.crossing))
-            .zip(one.par_iter().zip(two))
-            .with_min_len(BLOCK)
-            .for_each(|((to, (made, d)), (a1, a2))| {
-                *to = made * 0.5 * (a2 - a1) - *d * (a1 + a2);
-            });
-        self.brief.back(&self.brief_waves, &mut self.fields[2]);
-        let [first, second] = &self.past;
-        for (apart, (first, second)) in self.fields[2].iter_mut().zip(first.iter().zip(second)) {
-            *apart += second - first;
-        }
-        let goal = RESIDUAL * dot(made, made).sqrt() * diagonal;
-        self.fields[0].clone_from(&self.exchange);
-        for (n, across) in resistance.iter().enumerate() {
-            self.fields[2][n] -= across * self.fields[0][n];
-        }
-        let (low, high) = self.fields.split_at_mut(3);
-        high[0].clone_from(&low[2]);
-        self.fields[4].fill(0.0);
-        self.fields[5].fill(0.0);
-        let (mut rho, mut alpha, mut omega) = (1.0, 1.0, 1.0);
-        for _ in 0..MOST_ITERATIONS {
-            if dot(&self.fields[2], &self.fields[2]).sqrt() <= goal {
-                break;
-            }
-            let next = dot(&self.fields[3], &self.fields[2]);
-            let beta = next / rho * (alpha / omega);
-            rho = next;
-            for n in 0..self.fields[4].len() {
-                self.fields[4][n] =
-                    self.fields[2][n] + beta * (self.fields[4][n] - omega * self.fields[5][n]);
-            }
-            self.apply(own, resistance, diagonal, 4, 5);
-            alpha = rho / dot(&self.fields[3], &self.fields[5]);
-            for (n, across) in resistance.iter().enumerate() {
-                self.fields[0][n] += alpha * self.fields[4][n] / (across + diagonal);
-                self.fields[2][n] -= alpha * self.fields[5][n];
-            }
-            self.add(alpha);
-            if dot(&self.fields[2], &self.fields[2]).sqrt() <= goal {
-                break;
-            }
-            self.apply(own, resistance, diagonal, 2, 7);
-            omega = dot(&self.fields[7], &self.fields[2])
-                / dot(&self.fields[7], &self.fields[7]).max(f64::MIN_POSITIVE);
-            for (n, across) in resistance.iter().enumerate() {
-                self.fields[0][n] += omega * self.fields[2][n] / (across + diagonal);
-                self.fields[2][n] -= omega * self.fields[7][n];
-            }
-            self.add(omega);
-        }
-        self.exchange.clone_from(&self.fields[0]);
-    }
-
-    /// Adds to the waves of d what has been added to it: what the operator was last applied to, so many times.
-    fn add(&mut self, times: f64) {
-        (self.crossing.par_iter_mut().zip(&self.added))
-            .with_min_len(BLOCK)
-            .for_each(|(d, added)| *d += added * times);
-    }
-
-    /// The preconditioned operator on field `x`; the waves of the preconditioned one stay in `added`.
-    fn apply(&mut self, own: &Own, resistance: &[f64], diagonal: f64, x: usize, to: usize) {
-        for (n, across) in resistance.iter().enumerate() {
-            self.fields[6][n] = self.fields[x][n] / (across + diagonal);
-        }
-        let [one, two] = &own.of;
-        self.brief.forward(&self.fields[6], &mut self.added);
-        (self.brief_waves.par_iter_mut().zip(&self.added))
-            .zip(one.par_iter().zip(two))
-            .with_min_len(BLOCK)
-            .for_each(|((wave, added), (one, two))| *wave = added * (one + two));
-        self.brief.back(&self.brief_waves, &mut self.fields[to]);
-        for (n, across) in resistance.iter().enumerate() {
-            self.fields[to][n] += across * self.fields[6][n];
-        }
-    }
-}
-
-fn dot(one: &[f64], two: &[f64]) -> f64 {
-    one.iter().zip(two).map(|(a, b)| a * b).sum()
-}
-
-/// The modes at the end of the step, and the waves of what all heat before it does then.
-fn history(table: &Symbols, past: &Past, next: &mut [Complex<f32>], out: &mut [Complex<f64>]) {
-    let n = n_exponentials();
-    let old = past
-        .last
-        .0
-        .par_chunks(BLOCK)
-        .zip(past.before.0.par_chunks(BLOCK));
-    (out.par_chunks_mut(BLOCK)
-        .zip(next.par_chunks_mut(BLOCK * n)))
-    .zip(past.modes.0.par_chunks(BLOCK * n))
-    .zip((table.modes.par_chunks(3 * BLOCK * n)).zip(table.lives.par_chunks(n)))
-    .zip(table.last.par_chunks(BLOCK))
-    .zip(old)
-    .for_each(
-        |(((((out, next), modes), (factors, lives)), by_last), (last, before))| {
-            let width = out.len();
-            let mut sums = [Complex::<f32>::default(); BLOCK];
-            let mut heat = [[Complex::<f32>::default(); BLOCK]; 2];
-            for (heat, old) in heat.iter_mut().zip([last, before]) {
-                for (heat, old) in heat.iter_mut().zip(old) {
-                    *heat = Complex::new(old.re as f32, old.im as f32);
-                }
-            }
-            let heat = [&heat[0][..width], &heat[1][..width]];
-            let lines = (next.chunks_exact_mut(width).zip(modes.chunks_exact(width)))
-                .zip(factors.chunks_exact(3 * width).zip(lives));
-            for ((next, modes), (factors, lives)) in lines {
-                if *lives {
-                    of_mode(next, modes, factors, heat, &mut sums[..width]);
-                } else {
-                    next.fill(Complex::default());
-                }
-            }
-            let wide = |c: Complex<f32>| Complex::new(f64::from(c.re), f64::from(c.im));
-            for (((out, sum), by_last), last) in out.iter_mut().zip(sums).zip(by_last).zip(last) {
-                *out = wide(sum) + by_last * last;
-            }
-        },
-    );
-}
-
-dispatched! {
-/// A mode of a block at the end of the step, added to the `sums` of all: what is left of it, and what the heat of the last step
-/// and of the last but one adds.
-fn of_mode(
-    next: &mut [Complex<f32>],
-    modes: &[Complex<f32>],
-    factors: &[Complex<f32>],
-    heat: [&[Complex<f32>]; 2],
-    sums: &mut [Complex<f32>],
-) {
-    let n = next.len();
-    let (decay, adds) = factors.split_at(n);
-    let (here, there) = adds.split_at(n);
-    let (modes, sums, there) = (&modes[..n], &mut sums[..n], &there[..n]);
-    let [last, before] = [&heat[0][..n], &heat[1][..n]];
-    for k in 0..n {
-        let now = modes[k] * decay[k] + last[k] * here[k] + before[k] * there[k];
-        next[k] = now;
-        sums[k] += now;
-    }
-}
 }
 
 #[cfg(test)]
