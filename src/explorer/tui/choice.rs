@@ -9,9 +9,13 @@ mod numbers;
 pub use self::draft::{Draft, Form};
 pub use self::drawn::Drawn;
 
+use std::f64::consts::SQRT_2;
+
 use crate::tui::kinds::shifted;
 use crate::tui::units::{Units, sig};
-use asperity_engine::scene::{LifeModel, Scene, StressMeasure, Surface};
+use asperity_engine::scene::{
+    ContactKind, LifeModel, Override, Scene, SceneError, StressMeasure, Surface,
+};
 
 /// One choice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,7 +139,11 @@ impl Choice {
             Self::Wavelength(body) => match wavelength(surface(scene, body)) {
                 Some(wave_m) => {
                     let over_a = sig(wave_m / scene.hertz().a_m, 2);
-                    format!("{}  W/a {over_a}", units.length().show(wave_m, 3))
+                    let which = match surface(scene, body) {
+                        Surface::Random(_) => "shortest, ",
+                        _ => "",
+                    };
+                    format!("{}  {which}W/a {over_a}", units.length().show(wave_m, 3))
                 }
                 None => "no wave".to_owned(),
             },
@@ -265,19 +273,39 @@ fn wavelength(surface: &Surface) -> Option<f64> {
 }
 
 fn turn_lay(scene: &mut Scene, body: usize, by: i32) {
-    let all = [
-        Lay::Smooth,
-        Lay::Transverse,
-        Lay::Longitudinal,
-        Lay::Isotropic,
-    ];
-    let next = shifted(&all, lay(surface(scene, body)), by);
-    // A surface that was smooth takes wave and height from its mate, or typical ones.
-    let known = |body: usize| wavelength(surface(scene, body));
+    // A line contact is the same at every y.
+    let all: &[Lay] = match scene.kind() {
+        ContactKind::Point => &[
+            Lay::Smooth,
+            Lay::Transverse,
+            Lay::Longitudinal,
+            Lay::Isotropic,
+            Lay::Random,
+        ],
+        ContactKind::Line => &[Lay::Smooth, Lay::Transverse, Lay::Random],
+    };
+    let next = shifted(all, lay(surface(scene, body)), by);
+    // A surface that was smooth takes wave and height from its mate, or typical ones; a made one has waves of its Rq and
+    // twice its shortest.
+    let known = |body: usize| {
+        let surface = surface(scene, body);
+        let times = if lay(surface) == Lay::Random {
+            2.0
+        } else {
+            1.0
+        };
+        wavelength(surface).map(|wave_m| times * wave_m)
+    };
     let wave_m = known(body)
         .or_else(|| known(1 - body))
         .unwrap_or_else(|| stepped(0.4 * scene.hertz().a_m, 0));
-    let height = |body: usize| Some(surface(scene, body).amplitude_m()).filter(|a| *a > 0.0);
+    let height = |body: usize| {
+        let height_m = match surface(scene, body) {
+            Surface::Random(random) => SQRT_2 * random.rq_m,
+            other => other.amplitude_m(),
+        };
+        Some(height_m).filter(|height_m| *height_m > 0.0)
+    };
     let amplitude_m = height(body).or_else(|| height(1 - body)).unwrap_or(2e-7);
     let wave = |wavelength_x_m, wavelength_y_m| Surface::Sinusoid {
         amplitude_m,
@@ -287,11 +315,50 @@ fn turn_lay(scene: &mut Scene, body: usize, by: i32) {
         phase_deg: 0.0,
     };
     *surface_mut(scene, body) = match next {
-        Lay::Smooth | Lay::Random | Lay::Other => Surface::Smooth {},
+        Lay::Smooth | Lay::Other => Surface::Smooth {},
+        Lay::Random => {
+            let own_m = surface(scene, body).rq_m();
+            let rq_m = if own_m > 0.0 {
+                own_m
+            } else {
+                amplitude_m / SQRT_2
+            };
+            if let Ok(made) = with_made_surface(scene, body, rq_m, wave_m) {
+                *scene = made;
+            }
+            return;
+        }
         Lay::Transverse => wave(wave_m, f64::INFINITY),
         Lay::Longitudinal => wave(f64::INFINITY, wave_m),
         Lay::Isotropic => wave(wave_m, wave_m),
     };
+}
+
+/// A made surface in place of a body's waves, of their Rq: with the proportions of the preset `random_rollers`, Gaussian with a
+/// correlation of a third and no waves below half of theirs; in a line contact ridges.
+fn with_made_surface(
+    scene: &Scene,
+    body: usize,
+    rq_m: f64,
+    wave_m: f64,
+) -> Result<Scene, SceneError> {
+    let third_m = stepped(wave_m / 3.0, 0);
+    let across_m = match scene.kind() {
+        ContactKind::Point => third_m,
+        ContactKind::Line => f64::INFINITY,
+    };
+    let table = format!("body_{}.surface", body + 1);
+    let words = ["kind=random", "autocorrelation=gaussian"];
+    let words = words.map(|set| format!("{table}.{set}").parse());
+    let numbers = [
+        ("rq_m", rq_m),
+        ("correlation_x_m", third_m),
+        ("correlation_y_m", across_m),
+        ("cutoff_short_m", stepped(wave_m / 2.0, 0)),
+    ];
+    let numbers = numbers.map(|(key, value)| Override::number(&format!("{table}.{key}"), value));
+    let sets: Vec<Override> = words.into_iter().chain(numbers).collect::<Result<_, _>>()?;
+    Scene::from_toml_with(&scene.to_toml(), "the scene", &sets)
 }
 
 #[cfg(test)]
@@ -316,6 +383,40 @@ mod tests {
                 assert!(draft.scene.validate().is_ok(), "{choice:?}");
                 assert!(!draft.verdict.as_ref().map_or(true, String::is_empty));
             }
+        }
+    }
+
+    /// The lay goes round through a made surface of the waves' Rq, of a point and of a line; its row of waves is its shortest.
+    #[test]
+    fn waves_become_a_made_surface_of_their_rq() {
+        for preset in [presets::QUICK, "fzg_point_b"] {
+            let mut draft = Draft::new(Scene::load(preset).expect("a preset"), Form::Scene);
+            let waves = draft.scene.body_1.surface.clone();
+            draft.row = 1;
+            let mut before = 0.0;
+            while lay(&draft.scene.body_1.surface) != Lay::Random {
+                before = draft.scene.body_1.surface.rq_m();
+                draft.turn(1);
+                assert!(draft.verdict.is_ok(), "{preset}: {:?}", draft.verdict);
+            }
+            let made = &draft.scene.body_1.surface;
+            assert!((made.rq_m() / before - 1.0).abs() < 1e-12, "{preset}");
+            let (_, heights_m, _) = made.relief_heights_m().expect("heights");
+            let squares: f64 = heights_m.iter().map(|z_m| z_m * z_m).sum();
+            let rq_m = (squares / heights_m.len() as f64).sqrt();
+            assert!((rq_m / before - 1.0).abs() < 1e-6, "{preset}");
+            let half = 0.5 * wavelength(&waves).expect("a wave");
+            assert!(
+                (wavelength(made).unwrap_or(0.0) / half - 1.0).abs() < 5e-3,
+                "{preset}"
+            );
+            let shown = Choice::Wavelength(0).shown(&draft, Units::default());
+            assert!(shown.contains("shortest"), "{shown}");
+            typed(&mut draft, Choice::Wavelength(0), "80");
+            assert_eq!(draft.scene.body_1.surface.cutoff_short_m(), Some(8e-5));
+            draft.undo();
+            draft.undo();
+            assert!((draft.scene.body_1.surface.rq_m() / before - 1.0).abs() < 1e-12);
         }
     }
 
@@ -510,6 +611,8 @@ mod tests {
         assert_eq!(rough(&draft), (Lay::Longitudinal, Some(2e-4), 5e-7));
         draft.turn(1);
         assert_eq!(rough(&draft), (Lay::Isotropic, Some(2e-4), 5e-7));
+        draft.turn(1);
+        assert_eq!(rough(&draft).0, Lay::Random);
         draft.turn(1);
         assert_eq!(rough(&draft).0, Lay::Smooth);
         draft.turn(1);

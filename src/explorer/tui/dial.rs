@@ -20,6 +20,8 @@ pub struct Dial {
     pub knob: Knob,
     /// Name on the screen.
     pub label: &'static str,
+    /// What is shown over the value: Rq over A where a surface is known by its Rq, else 1.
+    pub shown: f64,
     /// Small steps.
     pub steps: Steps,
     /// Small steps in a big one.
@@ -124,7 +126,11 @@ impl Dial {
     /// Unit of its values.
     pub fn unit(&self, units: Units) -> Unit {
         let kind = self.knob.load_of().unwrap_or_default();
-        units.unit(self.knob.quantity().dimension, kind)
+        let unit = units.unit(self.knob.quantity().dimension, kind);
+        Unit {
+            per_si: unit.per_si * self.shown,
+            ..unit
+        }
     }
 
     fn span(&self) -> f64 {
@@ -149,8 +155,10 @@ pub fn dials(scene: &Scene, load_n: f64, p_hertz_pa: f64) -> Vec<Dial> {
             Knob::ForceNPerM => continue,
             knob => (knob, knob.of(scene)),
         };
-        let mut dial = dial(knob, home, (kind, p_hertz_pa));
-        if knob.surface(scene).is_some_and(Surface::is_smooth) {
+        let surface = knob.surface(scene);
+        let shown = surface.map_or(1.0, shown);
+        let mut dial = dial(knob, home, shown, (kind, p_hertz_pa));
+        if surface.is_some_and(Surface::is_smooth) {
             dial.state = DialState::Dead("smooth");
         }
         // The run would refuse a load beyond its domain.
@@ -167,20 +175,41 @@ pub fn dials(scene: &Scene, load_n: f64, p_hertz_pa: f64) -> Vec<Dial> {
     dials
 }
 
-fn dial(knob: Knob, home: f64, load: (ContactKind, f64)) -> Dial {
+/// Rq over A of a surface whose greatest height nobody states: one that is made or measured.
+fn shown(surface: &Surface) -> f64 {
+    match surface {
+        Surface::Smooth {} | Surface::Sinusoid { .. } => 1.0,
+        Surface::Random(_) | Surface::HeightMap { .. } => {
+            let ratio = surface.rq_m() / surface.amplitude_m();
+            if ratio > 0.0 { ratio } else { 1.0 }
+        }
+    }
+}
+
+fn dial(knob: Knob, home: f64, shown: f64, load: (ContactKind, f64)) -> Dial {
     let line = knob.line();
-    let ([min, max], typical) = knob.reach(home, load);
+    // Range, steps and typical values are round in what is shown.
+    let ([min, max], typical) = knob.reach(home * shown, load);
+    let typical = typical.into_iter().map(|(value, of)| (value / shown, of));
     Dial {
         knob,
-        label: knob.name(),
-        steps: line.steps,
+        label: match knob {
+            Knob::Amplitude1M if shown != 1.0 => "Rq₁ roughness 1",
+            Knob::Amplitude2M if shown != 1.0 => "Rq₂ roughness 2",
+            knob => knob.name(),
+        },
+        shown,
+        steps: match line.steps {
+            Steps::Equal(step) => Steps::Equal(step / shown),
+            Steps::Ratio(ratio) => Steps::Ratio(ratio),
+        },
         far: line.big_step,
-        min,
-        max,
+        min: min / shown,
+        max: max / shown,
         home,
         now: home,
         target: home,
-        typical,
+        typical: typical.collect(),
         state: DialState::Live,
     }
 }
@@ -194,7 +223,7 @@ mod tests {
 
     #[test]
     fn steps_land_on_round_values_and_stop_at_the_ends() {
-        let mut dial = dial(Knob::SlideRoll, 0.5, POINT);
+        let mut dial = dial(Knob::SlideRoll, 0.5, 1.0, POINT);
         assert_relative_eq!(dial.turned(1), 0.55, epsilon = 1e-12);
         dial.target = 0.537;
         assert_relative_eq!(dial.turned(1), 0.60, epsilon = 1e-12);
@@ -204,7 +233,7 @@ mod tests {
 
     #[test]
     fn ratio_steps_return_to_the_scenes_value() {
-        let mut dial = dial(Knob::ForceN, 800.0, POINT);
+        let mut dial = dial(Knob::ForceN, 800.0, 1.0, POINT);
         for _ in 0..5 {
             dial.target = dial.turned(1);
         }
@@ -216,9 +245,9 @@ mod tests {
     #[test]
     fn sliders_go_both_ways() {
         for dial in [
-            dial(Knob::SlideRoll, 0.5, POINT),
-            dial(Knob::ForceN, 800.0, POINT),
-            dial(Knob::EntrainmentMS, 1.0, POINT),
+            dial(Knob::SlideRoll, 0.5, 1.0, POINT),
+            dial(Knob::ForceN, 800.0, 1.0, POINT),
+            dial(Knob::EntrainmentMS, 1.0, 1.0, POINT),
         ] {
             assert_relative_eq!(dial.fraction(dial.min), 0.0);
             assert_relative_eq!(dial.fraction(dial.max), 1.0, epsilon = 1e-12);
@@ -232,7 +261,7 @@ mod tests {
 
     #[test]
     fn typical_loads_are_round_hertz_pressures_inside_the_range() {
-        let dial = dial(Knob::ForceN, 800.0, POINT);
+        let dial = dial(Knob::ForceN, 800.0, 1.0, POINT);
         assert!(!dial.typical.is_empty() && dial.typical.len() <= 9);
         for (force, _) in &dial.typical {
             let p = 1.73 * (force / 800.0).cbrt();
@@ -242,7 +271,7 @@ mod tests {
 
     #[test]
     fn a_line_has_a_load_per_length() {
-        let dial = dial(Knob::ForceNPerM, 4.22e5, (ContactKind::Line, 1.347e9));
+        let dial = dial(Knob::ForceNPerM, 4.22e5, 1.0, (ContactKind::Line, 1.347e9));
         assert_eq!(dial.knob, Knob::ForceNPerM);
         assert_eq!(dial.unit(Units::Gpa).name, "N/m");
         for (force, _) in &dial.typical {
@@ -250,6 +279,33 @@ mod tests {
             assert_relative_eq!((p / 0.25).round() * 0.25, p, epsilon = 1e-9);
         }
         assert!(dial.answers(Knob::ForceN) && !dial.answers(Knob::SlideRoll));
+    }
+
+    /// The preset's surfaces are made with Rq = 0.2 and 0.2 um; their greatest heights are what the seed gives.
+    #[test]
+    fn a_made_surface_is_turned_by_its_rq() {
+        let scene = Scene::load("random_rollers").expect("a preset");
+        let dials = dials(&scene, 800.0, 1.73e9);
+        for (place, name) in [(2, "Rq₁"), (3, "Rq₂")] {
+            let mut dial = dials[place].clone();
+            let unit = dial.unit(Units::Gpa);
+            assert_eq!((dial.name(), unit.name), (name, "µm"));
+            assert_relative_eq!(unit.of(dial.home), 0.2, epsilon = 1e-12);
+            dial.target = dial.turned(1);
+            assert_relative_eq!(unit.of(dial.target), 0.21, epsilon = 1e-12);
+            let mut turned = scene.clone();
+            dial.knob.put(&mut turned, dial.target);
+            assert_relative_eq!(
+                turned.surfaces()[place - 2].rq_m(),
+                0.21e-6,
+                epsilon = 1e-15
+            );
+            assert!(
+                dial.typical
+                    .iter()
+                    .any(|(value, _)| (unit.of(*value) - 0.3).abs() < 1e-9)
+            );
+        }
     }
 
     #[test]
