@@ -3,6 +3,9 @@
 
 const NAMED = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "PageUp", "PageDown", "Home", "Tab", "BackTab", "Enter", "Escape", "Backspace", "F1"];
 const FIRST_NAMED = 0x110000;
+const SCAN = /\.(npy|csv|txt|x3p|sur)$/i; // measured surfaces
+const MOST_SCAN = 64 << 20;
+const MOST_TEXT = 256 << 10;
 
 const at = (id) => document.getElementById(id);
 const screen_ = at("screen");
@@ -213,7 +216,9 @@ function watch() {
   window.addEventListener("drop", async (event) => {
     event.preventDefault();
     const file = event.dataTransfer.files[0];
-    if (file) dropped(file.size > 262144 ? "#".repeat(262145) : await file.text());
+    if (!file) return;
+    if (SCAN.test(file.name) && file.size <= MOST_SCAN) mapDropped(file.name, await file.arrayBuffer());
+    else dropped(file.size > MOST_TEXT ? "#".repeat(MOST_TEXT + 1) : await file.text());
   });
   let waits = 0;
   new ResizeObserver(() => {
@@ -230,6 +235,10 @@ function dropped(text) {
   worker.postMessage({ kind: "drop", text, screen: size() });
 }
 
+function mapDropped(name, bytes) {
+  worker.postMessage({ kind: "map", name, bytes, screen: size() }, [bytes]);
+}
+
 // A run of a link's scene in a module of its own: its table, counters and time.
 async function measure(pairs, steps) {
   const own = newWorker();
@@ -243,7 +252,7 @@ async function measure(pairs, steps) {
   });
 }
 
-window.asperity = { state, painter, measure, dropped };
+window.asperity = { state, painter, measure, dropped, mapDropped };
 worker = newWorker();
 worker.onmessage = hear;
 worker.onerror = (event) => { state.broken = event.message; tell(`The page cannot run: ${event.message}`, true); };

@@ -31,7 +31,10 @@ function words(ask) {
 }
 
 function put(text) {
-  const bytes = encoder.encode(text);
+  putBytes(encoder.encode(text));
+}
+
+function putBytes(bytes) {
   const at = wasm.inbox(bytes.length);
   new Uint8Array(wasm.memory.buffer, at, bytes.length).set(bytes);
 }
@@ -130,6 +133,14 @@ const hear = {
   },
   open: (m) => { put(m.link); opened(wasm.open(...m.screen), m.screen); },
   drop: (m) => { put(m.text); opened(wasm.drop_file(...m.screen), m.screen); },
+  map: (m) => {
+    const name = encoder.encode(`${m.name}\n`);
+    const bytes = new Uint8Array(name.length + m.bytes.byteLength);
+    bytes.set(name);
+    bytes.set(new Uint8Array(m.bytes), name.length);
+    putBytes(bytes);
+    opened(wasm.drop_map(...m.screen), m.screen);
+  },
   resize: (m) => { wasm.resize(...m.screen); drawn = pictured = 0; isPainting = false; postMessage({ resized: m.screen }); },
   key: (m) => wasm.key(m.code, m.held),
   pointer: (m) => wasm.pointer(m.act, m.column, m.row),

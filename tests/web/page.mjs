@@ -11,6 +11,7 @@ import http from "node:http";
 import os from "node:os";
 import path from "node:path";
 import { createRequire } from "node:module";
+import { crc32 } from "node:zlib";
 
 const [pages, program] = process.argv.slice(2, 4).map((given) => path.resolve(given));
 const shots = (process.argv[4] ?? "-") === "-" ? null : path.resolve(process.argv[4]);
@@ -281,6 +282,53 @@ await test("links are obeyed, hostile ones refused in words", async () => {
   await page.evaluate(() => asperity.dropped("no = [scene"));
   await until(page, "a bad file is refused", (now) => now.refused);
   assert.deepEqual(page.faults, []);
+});
+
+// A .x3p: an archive of files that are not packed.
+function archive(files) {
+  const parts = [], places = [];
+  let at = 0;
+  const numbers = (...all) => Buffer.concat(all.map(([value, bytes]) => { const b = Buffer.alloc(bytes); b.writeUIntLE(value, 0, bytes); return b; }));
+  for (const [name, data] of files) {
+    const common = [[20, 2], [0, 2], [0, 2], [0, 2], [0, 2], [crc32(data), 4], [data.length, 4], [data.length, 4], [name.length, 2], [0, 2]];
+    const head = Buffer.concat([numbers([0x04034b50, 4], ...common), Buffer.from(name), data]);
+    places.push(numbers([0x02014b50, 4], [20, 2], ...common, [0, 2], [0, 2], [0, 2], [0, 4], [at, 4]), Buffer.from(name));
+    parts.push(head);
+    at += head.length;
+  }
+  const list = Buffer.concat(places);
+  return Buffer.concat([...parts, list, numbers([0x06054b50, 4], [0, 2], [0, 2], [files.length, 2], [files.length, 2], [list.length, 4], [at, 4], [0, 2])]);
+}
+
+await test("a measured surface that is dropped: refused in words, or run as the program runs its file", async () => {
+  const page = await opened(`${disk}#nodes=65`);
+  await alive(page);
+  const drop = (name, bytes) => page.evaluate(([name, bytes]) => asperity.mapDropped(name, Uint8Array.from(bytes).buffer), [name, [...bytes]]);
+  await drop("flank.x3p", Buffer.from("PK"));
+  await until(page, "a torn file is refused", (now) => /flank.x3p/.test(now.refused));
+  // Waves of 160 um along and 320 across, 0.3 um high, on pixels of 10 um.
+  const [columns, rows, side_m] = [64, 64, 1e-5];
+  const z = (k) => 3e-7 * Math.cos((2 * Math.PI * (k % columns)) / 16) * Math.cos((2 * Math.PI * Math.floor(k / columns)) / 32);
+  const heights = Float64Array.from({ length: columns * rows }, (_, k) => z(k));
+  const axis = (name, type, step, offset) => `<${name}><AxisType>${type}</AxisType><DataType>D</DataType><Increment>${step}</Increment><Offset>${offset}</Offset></${name}>`;
+  const main = `<?xml version="1.0"?><p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2"><Record1><Revision>ISO5436 - 2000</Revision><FeatureType>SUR</FeatureType><Axes>${axis("CX", "I", side_m, 0)}${axis("CY", "I", side_m, 0)}${axis("CZ", "A", 1, 0)}</Axes></Record1><Record3><MatrixDimension><SizeX>${columns}</SizeX><SizeY>${rows}</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink><PointDataLink>bindata/data.bin</PointDataLink></DataLink></Record3></p:ISO5436_2>`;
+  const file = archive([["main.xml", Buffer.from(main)], ["bindata/data.bin", Buffer.from(heights.buffer)]]);
+  const before = await life(page);
+  await drop("flank.x3p", file);
+  const now = await until(page, "a life of the surface", (now) => /settled/.test(now.spoken) && Number(/life ([\d.e-]+)/.exec(now.spoken)[1]) !== before, 60);
+  assert.equal(now.refused, null);
+  const [life_, low, high] = /life ([\d.e-]+), band ([\d.e-]+) to ([\d.e-]+)/.exec(now.spoken).slice(1).map(Number);
+  const [saved] = await Promise.all([page.waitForEvent("download"), page.click("#scene")]);
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), "asperity-map-"));
+  await saved.saveAs(path.join(folder, "scene.toml"));
+  fs.writeFileSync(path.join(folder, "flank.x3p"), file);
+  const told = execFileSync(program, ["run", path.join(folder, "scene.toml"), "--set", "grid.nodes=65", "--no-record", "--summary", "-"], { stdio: ["ignore", "pipe", "ignore"] }).toString();
+  const native = JSON.parse(told.slice(told.indexOf("{"))).life_relative;
+  console.log(`     ${life_}, ${low} to ${high}; the program ${native}`);
+  assert.ok(low <= native && native <= high);
+  await shot(page, "dropped");
+  assert.deepEqual(page.faults, []);
+  fs.rmSync(folder, { recursive: true });
 });
 
 // A table of comma-separated values as rows by column names.

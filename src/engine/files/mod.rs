@@ -6,7 +6,7 @@ mod read;
 mod write;
 
 pub use digest::{FnvHasher, fnv};
-pub use read::{open_plain, read_up_to};
+pub use read::{give_file, given_file, open_plain, read_up_to};
 pub use write::{
     beside, folder_of, identity, part_of, publish, stem_beside, sync_file, sync_folder, write_whole,
 };

@@ -8,14 +8,11 @@
 //! comes with the program (scenes of `evidence/`).
 
 mod header;
-#[cfg(not(target_arch = "wasm32"))]
 mod missing;
 mod npy;
 mod raster;
-#[cfg(not(target_arch = "wasm32"))]
 mod sur;
 mod text;
-#[cfg(not(target_arch = "wasm32"))]
 mod x3p;
 
 use std::hash::Hasher as _;
@@ -26,7 +23,7 @@ use super::error::{SceneError, shortened};
 use super::keys::{self, joined, short};
 use super::map_report::tilt;
 use super::presets;
-use crate::files::{FnvHasher, read_up_to};
+use crate::files::{FnvHasher, given_file, read_up_to};
 use crate::physics::height_map::{FileDefects, HeightMap, MapEdge, Treatment};
 use crate::physics::levelling::{MapLevel, MapOutliers};
 use crate::physics::preparation::{cropped, turned};
@@ -321,9 +318,7 @@ fn parsed(path: &Path) -> Result<Parsed, Refusal> {
             let (matrix, header) = text::parse(&bytes(path)?)?;
             Ok(Parsed::whole(matrix, header))
         }
-        #[cfg(not(target_arch = "wasm32"))]
         Some("x3p") => x3p::parse(&bytes(path)?),
-        #[cfg(not(target_arch = "wasm32"))]
         Some("sur") => sur::parse(&bytes(path)?),
         _ => Err(refusal(
             "unknown kind of file",
@@ -340,7 +335,8 @@ fn bytes(path: &Path) -> Result<Vec<u8>, Refusal> {
             "a readable file, its path relative to the scene file",
         )
     };
-    let bytes = read_up_to(path, LARGEST_FILE).map_err(failed)?;
+    let read = || read_up_to(path, LARGEST_FILE);
+    let bytes = given_file(path).map_or_else(read, Ok).map_err(failed)?;
     if bytes.len() as u64 > LARGEST_FILE {
         return Err(refusal("larger than 64 MiB", "a file of at most 64 MiB"));
     }

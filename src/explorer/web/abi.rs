@@ -7,7 +7,7 @@
 use std::cell::RefCell;
 use std::sync::{Mutex, PoisonError};
 
-use super::link::PageLink;
+use super::link::{PageLink, with_map};
 use super::page::{WebPage, measured};
 use crate::tui::event::{Chord, KeyName, Modifiers, Pointer, PointerAct, ScreenEvent};
 
@@ -65,6 +65,20 @@ pub extern "C" fn open(columns: u32, rows: u32, cell_width: u32, cell_height: u3
 pub extern "C" fn drop_file(columns: u32, rows: u32, cell_width: u32, cell_height: u32) -> u32 {
     let opened = PageLink::from_file(&text()).and_then(WebPage::open);
     take(opened, columns, rows, cell_width, cell_height)
+}
+
+/// Same with a measured surface that was dropped: the file's name, a line end, its bytes.
+#[unsafe(no_mangle)]
+pub extern "C" fn drop_map(columns: u32, rows: u32, cell_width: u32, cell_height: u32) -> u32 {
+    let shown = on_page(|page| (page.scene(), page.nodes)).unwrap_or_default();
+    let opened = INBOX.with_borrow(|inbox| with_map(shown, inbox));
+    take(
+        opened.and_then(WebPage::open),
+        columns,
+        rows,
+        cell_width,
+        cell_height,
+    )
 }
 
 fn take(

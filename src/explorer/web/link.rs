@@ -1,13 +1,17 @@
 //! What a link asks for: lines `key=value`, as `scene=twin_disc`, `S=0.5`, `nodes=129`, or any key of a scene.
 
 use std::fmt::Write as _;
+use std::path::Path;
 use std::sync::Arc;
 
 use crate::tui::app::App;
 use crate::tui::lessons::{Lesson, built_in};
 use crate::tui::theme::Contrast;
+use asperity_engine::files::give_file;
 use asperity_engine::plan::Plan;
-use asperity_engine::scene::{Knob, Override, Scene, SceneError, presets};
+use asperity_engine::scene::{
+    Knob, MapEdge, MapLevel, MapOutliers, Override, Scene, SceneError, Surface, presets,
+};
 
 /// Nodes per side of the finest mesh unless asked for: a page has one thread, and climbs to it from the first life on.
 pub(super) const NODES: usize = 129;
@@ -57,13 +61,13 @@ impl PageLink {
                     overrides.push(line.parse::<Override>().map_err(|e| e.to_string())?);
                     keys.push(format!("&{key}={}", escaped(value)));
                 }
-                _ => return Err(format!("{} is not a key of a link: {KEYS}", shown(key))),
+                _ => return Err(format!("{} is not a key of a link: {KEYS}", said(key))),
             }
         }
         if presets::find(&name).is_none() {
             let names: Vec<&str> = presets::listed().map(|preset| preset.name).collect();
             let names = names.join(", ");
-            return Err(format!("{} is not a scene: {names}", shown(&name)));
+            return Err(format!("{} is not a scene: {names}", said(&name)));
         }
         if let Some(set) = presets::opening(&name) {
             overrides.insert(0, set.parse().map_err(|e: SceneError| e.to_string())?);
@@ -100,6 +104,46 @@ impl PageLink {
             ..Self::read("")?
         })
     }
+}
+
+/// What is shown with a measured surface on body 1, from a file that was dropped: its name, a line end, its bytes. As `asperity
+/// surface` puts it into a scene: repeated, its plane taken off.
+pub(super) fn with_map(
+    (shown, nodes): (String, usize),
+    dropped: &[u8],
+) -> Result<PageLink, String> {
+    let end = dropped.iter().position(|byte| *byte == b'\n');
+    let (name, bytes) = dropped.split_at(end.unwrap_or(0));
+    let name = String::from_utf8_lossy(name);
+    let name = name.rsplit(['/', '\\']).next().unwrap_or_default();
+    give_file(name, bytes.get(1..).unwrap_or_default().to_vec());
+    let mut scene = Scene::from_toml(&shown).map_err(|e| e.to_string())?;
+    scene.title = format!("{name} on body 1");
+    scene.body_1.surface = Surface::HeightMap {
+        file: name.to_owned(),
+        pixel_m: None,
+        edge: MapEdge::Periodic,
+        unit_m: None,
+        level: Some(MapLevel::Plane),
+        outliers: MapOutliers::default(),
+        amplitude_m: None,
+        crop_m: None,
+        turn_deg: None,
+        s_filter_m: None,
+        l_filter_m: None,
+        start_x_m: None,
+        digest: None,
+        map: None,
+    };
+    scene
+        .read_maps(Path::new(""))
+        .map_err(|error| format!("{error}; or drop a scene that names {} with it", said(name)))?;
+    Ok(PageLink {
+        scene: whole(&scene)?,
+        name: "scene".to_owned(),
+        nodes: Some(nodes),
+        ..PageLink::read("")?
+    })
 }
 
 /// The scene on so many nodes, or on as many more as it needs and has; and its plan.
@@ -181,7 +225,7 @@ fn turn(scene: &mut Scene, key: &str, value: f64) -> Result<(), String> {
 
 fn number(key: &str, value: &str) -> Result<f64, String> {
     let number = value.parse().ok().filter(|value: &f64| value.is_finite());
-    number.ok_or_else(|| format!("{key} = {} is not a number", shown(value)))
+    number.ok_or_else(|| format!("{key} = {} is not a number", said(value)))
 }
 
 fn nodes_of(value: &str) -> Result<usize, String> {
@@ -189,7 +233,7 @@ fn nodes_of(value: &str) -> Result<usize, String> {
         .parse()
         .ok()
         .filter(|nodes: &usize| (33..=MAX_NODES).contains(nodes) && (nodes - 1).is_power_of_two());
-    nodes.ok_or_else(|| format!("nodes = {} is refused: 33, 65, 129 or 257", shown(value)))
+    nodes.ok_or_else(|| format!("nodes = {} is refused: 33, 65, 129 or 257", said(value)))
 }
 
 fn lesson_of(value: &str) -> Result<Arc<Lesson>, String> {
@@ -199,7 +243,7 @@ fn lesson_of(value: &str) -> Result<Arc<Lesson>, String> {
     let lesson = place.and_then(|place| built_in().get(place).cloned());
     lesson.ok_or_else(|| {
         let names = crate::tui::lessons::FILES.map(|(name, _)| name).join(", ");
-        format!("{} is not a lesson: {names}", shown(value))
+        format!("{} is not a lesson: {names}", said(value))
     })
 }
 
@@ -210,17 +254,17 @@ fn contrast_of(value: &str) -> Result<Contrast, String> {
         "light" => Ok(Contrast::Light),
         _ => Err(format!(
             "contrast = {} is refused: normal, high or light",
-            shown(value)
+            said(value)
         )),
     }
 }
 
 fn not_a_pair(line: &str) -> String {
-    format!("{} is not key=value", shown(line))
+    format!("{} is not key=value", said(line))
 }
 
 /// What came from outside, for a message.
-fn shown(text: &str) -> String {
+fn said(text: &str) -> String {
     let text: String = text.chars().filter(|c| !c.is_control()).take(40).collect();
     format!("\"{text}\"")
 }
@@ -310,6 +354,68 @@ mod tests {
             assert!(PageLink::from_file(text).is_err(), "{text:?}");
         }
         assert!(PageLink::from_file(&" ".repeat(MAX_BYTES + 1)).is_err());
+    }
+
+    /// A map that says its sides, dropped on a scene: its heights on body 1 whatever becomes of the scene then, as a run that reads
+    /// the file has them.
+    #[test]
+    fn a_dropped_map_is_the_surface_of_body_1() {
+        let text = |width: &str| {
+            let rows = (0..16).map(|row| {
+                let z = |column: i32| f64::from((7 * row + 3 * column) % 11) * 1e-8;
+                let row: Vec<String> = (0..32).map(|column| format!("{:e}", z(column))).collect();
+                row.join(",")
+            });
+            let rows: Vec<String> = rows.collect();
+            format!("# Value units: m\n{width}{}\n", rows.join("\n"))
+        };
+        let wide = text("# Width: 640 µm\n");
+        let shown = PageLink::read("scene=twin_disc").unwrap().scene.to_toml();
+        let dropped =
+            with_map((shown.clone(), 65), format!("flank.csv\n{wide}").as_bytes()).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("flank.csv");
+        std::fs::write(&file, &wide).unwrap();
+        let mut by_file = Scene::from_toml(&shown).unwrap();
+        by_file
+            .body_1
+            .surface
+            .clone_from(&dropped.scene.body_1.surface);
+        if let Surface::HeightMap { file: own, map, .. } = &mut by_file.body_1.surface {
+            *own = file.to_string_lossy().replace("flank", "other");
+            *map = None;
+        }
+        std::fs::rename(&file, folder.path().join("other.csv")).unwrap();
+        by_file.read_maps(Path::new("")).unwrap();
+        let heights = |scene: &Scene| scene.body_1.surface.relief_heights_m().unwrap();
+        assert_eq!(heights(&dropped.scene), heights(&by_file));
+        // The forms of the explorer read the scene again.
+        let again = PageLink::from_file(&dropped.scene.to_toml()).unwrap();
+        assert_eq!(heights(&again.scene), heights(&by_file));
+        let small = format!("small.csv\n{}", text(""));
+        let reason = with_map((shown.clone(), 65), small.as_bytes())
+            .err()
+            .unwrap();
+        assert!(
+            reason.contains("pixel_m") && reason.contains("small.csv"),
+            "{reason}"
+        );
+        for hostile in [
+            "",
+            "\n",
+            "x",
+            "a.csv\n",
+            "../../x.sur\nnothing",
+            "a.x3p\nPK\x03\x04",
+        ] {
+            let reason = with_map((shown.clone(), 65), hostile.as_bytes())
+                .err()
+                .unwrap();
+            assert!(
+                reason.contains("body_1.surface.file"),
+                "{hostile:?}: {reason}"
+            );
+        }
     }
 
     /// Of every scene there is: on the page's nodes, or on as many more as it needs, never more than its own.

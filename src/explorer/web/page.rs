@@ -45,7 +45,8 @@ pub(super) struct WebPage {
     run: Rc<RefCell<PageRun>>,
     beside: PageSweep,
     files: Files,
-    nodes: usize,
+    /// Of its finest mesh.
+    pub(super) nodes: usize,
     /// Keys of the link, until another scene is run.
     keys: Rc<RefCell<String>>,
     shown: Buffer,

@@ -39,13 +39,11 @@ pub(super) struct Header {
 const SIDES: [&str; 2] = ["width", "height"];
 
 /// How far the two sides of a pixel may differ in a file of an instrument, over themselves.
-#[cfg(not(target_arch = "wasm32"))]
 const UNSQUARE: f64 = 1e-3;
 
 impl Header {
     /// What a file of an instrument says: the unit in m, and the sides of a pixel along x and y, m, of a map of
     /// `sides` columns and rows, each with its words.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(super) fn of_instrument(
         unit: (f64, String),
         pixel: [(f64, String); 2],
