@@ -104,8 +104,11 @@ function news(m) {
     Object.assign(state, { steps: m.steps, seconds: m.seconds, frames });
     if (frames > 0) at("speed").textContent = `${nodes} × ${nodes} nodes, ${frames.toFixed(0)} frames/s here`;
     at("text").textContent = painter.text();
-    at("room").style.background = painter.paper([0, 0]);
   }
+  // Buttons and words follow the screen.
+  const paper = painter.paper([0, 0]);
+  at("room").style.background = paper;
+  document.documentElement.classList.toggle("light", Number.parseInt(paper.slice(1), 16) > 0x7fffff);
   // What is spoken waits for the end of a change.
   if (m.spoken !== state.spoken && (!at("spoken").textContent || m.spoken.includes("settled"))) at("spoken").textContent = m.spoken;
   state.spoken = m.spoken;

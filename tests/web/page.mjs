@@ -227,11 +227,27 @@ await test("light contrast, by a link and by its key", async () => {
     const around = getComputedStyle(document.getElementById("room")).backgroundColor.match(/\d+/g).map(Number);
     return [...places.map(([x, y]) => sum(copy.getImageData(x, y, 1, 1).data)), sum(around)];
   });
+  // Words of the page itself on what lies below them, by WCAG's contrast.
+  const contrasts = () => page.evaluate(() => {
+    const luminance = (colour) => {
+      const [r, g, b] = colour.match(/[\d.]+/g).slice(0, 3).map((c) => (c /= 255) <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+      return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const below = (node) => /^rgba\(.*, 0\)$/.test(getComputedStyle(node).backgroundColor) ? below(node.parentElement) : getComputedStyle(node).backgroundColor;
+    return ["footer button", "summary", "#speed", "#title", "#said"].map((name) => {
+      const node = document.querySelector(name);
+      const [ink, paper] = [getComputedStyle(node).color, below(node)].map(luminance);
+      return [name, (Math.max(ink, paper) + 0.05) / (Math.min(ink, paper) + 0.05), paper];
+    });
+  });
+  const isReadable = (all, isLight) => all.every(([, contrast, paper]) => contrast >= 4.5 && (paper > 0.5) === isLight);
   assert.ok((await light()).every((sum) => sum > 600), `${await light()}`);
+  assert.ok(isReadable(await contrasts(), true), JSON.stringify(await contrasts()));
   await shot(page, "light");
   await page.keyboard.press("c");
   await page.waitForTimeout(4000);
   assert.ok((await light()).every((sum) => sum < 150), `${await light()}`);
+  assert.ok(isReadable(await contrasts(), false), JSON.stringify(await contrasts()));
   assert.deepEqual(page.faults, []);
 });
 
