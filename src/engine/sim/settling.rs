@@ -6,6 +6,7 @@
 //! average   over a period P                       |ln L now − ln L before| over the last P/2:  ≤ B/2 settled,  > B not
 //!           smooth and steady                     settled as solved
 //!           fields come back                      c · drift ≤ B/2 settled
+//!           not yet a period                      not settled; the band is wider by half of what both halves differ by
 //!           no common period, 3 P                 settled; the band is as much wider as the mean wandered in 2 P
 //!                                                 (the mean of all that was seen, which converges as 1/distance)
 //!           cycles by their damage            when the surfaces of a period have crossed the contact; the band is wider by
@@ -67,11 +68,12 @@ impl Settling {
             self.settled = true;
             return;
         }
+        let life = |ln_integral: f64| ln_integral / self.law.weibull_slope;
         if !meter.covers() {
+            self.wander = life(meter.halves_apart());
             return;
         }
         let band = self.law.stress_exponent * stress_error.max(2.0 * self.tolerance);
-        let life = |ln_integral: f64| ln_integral / self.law.weibull_slope;
         let comes_back = repeat.is_some_and(|repeat| {
             let drift = repeat.drift.filter(|_| repeat.rhythm != Rhythm::Statistics);
             drift.is_some_and(|drift| self.law.stress_exponent * drift <= 0.5 * band)

@@ -21,6 +21,7 @@
 use serde::{Deserialize, Serialize};
 
 use std::collections::VecDeque;
+use std::ops::Range;
 
 use super::marks::Marks;
 use super::stress::Loading;
@@ -260,6 +261,30 @@ impl LifeMeter {
     /// How far ln J moved since the mean first covered a period.
     pub fn marks(&self) -> &Marks {
         &self.marks
+    }
+
+    /// Half of what ln J of the later half of all samples differs by from that of the earlier one, of the body where it is more:
+    /// what their mean may still move by.
+    pub fn halves_apart(&self) -> f64 {
+        let list = &self.phases.list;
+        let mean = |body: BodyId, part: Range<usize>| {
+            let span: f64 = list.range(part.clone()).map(|phase| phase.span).sum();
+            let terms = list
+                .range(part)
+                .map(|phase| (phase.span, phase.shares.ln(Loading::Full(body))));
+            ln_sum(terms) - span.ln()
+        };
+        let half = list.len() / 2;
+        let apart = |body| {
+            let apart = mean(body, half..list.len()) - mean(body, 0..half);
+            // Nothing at any time has not moved.
+            if apart.is_finite() {
+                0.5 * apart.abs()
+            } else {
+                0.0
+            }
+        };
+        BodyId::BOTH.map(apart).into_iter().fold(0.0, f64::max)
     }
 
     /// Distance since the last restart, and the period of the mean.
