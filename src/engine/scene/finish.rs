@@ -60,11 +60,14 @@ pub(super) fn finish_keys() -> impl Iterator<Item = (String, &'static Key)> {
         .map(|body| (joined(body, FINISH.name), &FINISH))
 }
 
-/// Puts a made surface in the place of its finish, and says so in `said`.
+/// Puts a made surface in the place of its finish, and says so in `said`. In a line contact, which is the same at every y, its
+/// ridges do not end.
 ///
 /// # Errors
-/// [`SceneError::Value`] of a word that is none, or beside another kind of surface.
+/// [`SceneError::Value`] of a word that is none, beside another kind of surface, or whose lay a line contact does not have.
 pub(super) fn translate(scene: &mut Table, said: &mut String) -> Result<(), SceneError> {
+    let kind = at(scene, "contact").and_then(|contact| contact.get("kind"));
+    let is_line = kind.and_then(Value::as_str) == Some("line");
     for body in BODIES {
         let Some(surface) = at(scene, body) else {
             continue;
@@ -86,11 +89,20 @@ pub(super) fn translate(scene: &mut Table, said: &mut String) -> Result<(), Scen
         let (rq_m, [along, across], source) = finish.finished();
         let kind = || Value::String("random".to_owned());
         surface.entry("kind").or_insert_with(kind);
+        if is_line && along > across && !surface.contains_key("correlation_y_m") {
+            let allowed = "of a line contact a finish whose lay does not lie along the rolling";
+            return Err(refused(allowed.to_owned()));
+        }
         let assumed = "assumed: vary it";
+        let (across, why_across) = if is_line {
+            (f64::INFINITY, "a line contact is the same at every y")
+        } else {
+            (across, assumed)
+        };
         for (name, value, why) in [
             ("rq_m", rq_m, source),
             ("correlation_x_m", along, assumed),
-            ("correlation_y_m", across, assumed),
+            ("correlation_y_m", across, why_across),
         ] {
             let is_given =
                 surface.contains_key(name) || name == "rq_m" && surface.contains_key("ra_m");
@@ -145,6 +157,31 @@ mod tests {
             assert_eq!(made.rq_m, 1e-7);
             assert!(!own.about.contains("surface.rq_m = "), "{}", own.about);
         }
+        let line = |word: &str| {
+            let sets = [
+                format!("body_1.surface.finish={word}"),
+                "body_1.surface.cutoff_short_m=6e-5".to_owned(),
+            ];
+            let sets = sets.map(|set| set.parse().unwrap());
+            Scene::load_with("fzg_point_b", &sets).map_err(|error| error.to_string())
+        };
+        for word in ["ground_flank", "honed_flank", "superfinished_flank"] {
+            let scene = line(word).unwrap();
+            let Surface::Random(made) = &scene.body_1.surface else {
+                panic!()
+            };
+            assert_eq!(made.correlation_m()[1], f64::INFINITY, "{word}");
+            assert!(
+                scene.about.contains("the same at every y"),
+                "{}",
+                scene.about
+            );
+        }
+        let refusal = line("raceway").unwrap_err();
+        assert!(
+            refusal.contains("finish") && refusal.contains("lay"),
+            "{refusal}"
+        );
         let refusal = with(&["body_1.surface.finish=polished".to_owned()]).unwrap_err();
         assert!(refusal.contains("ground_flank"), "{refusal}");
     }
