@@ -1,6 +1,6 @@
 //! Curves over an axis.
 
-use super::{Layout, Scale, axis, titled};
+use super::{Layout, Scale, TYPE, axis, titled};
 use crate::draw::{Drawing, Rect, Rgb, Side, Text, text_width};
 
 /// Dark enough on white; named in the legend in this order, too.
@@ -16,8 +16,14 @@ const COLOURS: [Rgb; 9] = [
     [227, 119, 194],
 ];
 
+/// Formulas, told apart.
+const GREYS: [Rgb; 3] = [[130; 3], [70; 3], [180; 3]];
+
 /// Lines at values of y.
 const LEVEL: Rgb = [153; 3];
+
+/// Radius of a dot, pixels.
+const DOT: f64 = 4.0;
 
 /// What a curve is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,12 +74,12 @@ fn span(places: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     (low <= high).then_some([low - room, high + room])
 }
 
-/// How much of a line lies in an area, in sixteenths of its pieces.
-fn within(line: &[[f64; 2]], area: &Rect) -> usize {
+/// Whether a line or one of its dots lies in an area; pieces are looked at in sixteenths.
+fn within(line: &[[f64; 2]], area: &Rect) -> bool {
     const PARTS: i32 = 16;
     let is_in = |[x, y]: [f64; 2]| {
-        (area.left..=area.left + area.wide).contains(&x)
-            && (area.top..=area.top + area.high).contains(&y)
+        (area.left - DOT..=area.left + area.wide + DOT).contains(&x)
+            && (area.top - DOT..=area.top + area.high + DOT).contains(&y)
     };
     let pieces = line.windows(2).flat_map(|ends| {
         let along = |part: i32| f64::from(part) / f64::from(PARTS);
@@ -81,7 +87,7 @@ fn within(line: &[[f64; 2]], area: &Rect) -> usize {
             move |axis: usize, t: f64| ends[0][axis] + t * (ends[1][axis] - ends[0][axis]);
         (0..=PARTS).map(move |part| [0, 1].map(|axis| between(axis, along(part))))
     });
-    pieces.filter(|at| is_in(*at)).count()
+    line.iter().copied().chain(pieces).any(is_in)
 }
 
 impl Figure {
@@ -91,15 +97,19 @@ impl Figure {
         curve.points.iter().filter_map(place).collect()
     }
 
-    /// Names of the curves in the corner of the plot where they hide least of what `drawn` has, the upper right one first.
-    fn draw_legend(&self, drawing: &mut Drawing, plot: Rect, drawn: &[Vec<[f64; 2]>]) {
-        let em = drawing.font();
+    /// Width and height of the names of the curves, sizes of type.
+    fn legend_size(&self) -> [f64; 2] {
         let names = self.curves.iter().map(|curve| text_width(&curve.name));
-        let [wide, high] = [
-            (names.fold(0.0, f64::max) + 3.2) * em,
-            (1.4 * self.curves.len() as f64 + 0.6) * em,
-        ];
-        let far = 0.5 * em;
+        [
+            names.fold(0.0, f64::max) + 3.2,
+            1.4 * self.curves.len() as f64 + 0.6,
+        ]
+    }
+
+    /// The corner of the plot where a legend hides nothing of what `drawn` has, the upper right one first; `None`: there is none.
+    fn free_corner(&self, plot: Rect, drawn: &[Vec<[f64; 2]>]) -> Option<Rect> {
+        let [wide, high] = self.legend_size().map(|size| size * TYPE);
+        let far = 0.5 * TYPE;
         let lefts = [plot.right() - wide - far, plot.left + far];
         let tops = [plot.top + far, plot.bottom() - high - far];
         let corners = tops.into_iter().flat_map(|top| {
@@ -110,10 +120,12 @@ impl Figure {
                 high,
             })
         });
-        let hidden = |area: &Rect| drawn.iter().map(|line| within(line, area)).sum::<usize>();
-        let Some(area) = corners.min_by_key(hidden) else {
-            return;
-        };
+        let is_free = |area: &Rect| !drawn.iter().any(|line| within(line, area));
+        corners.into_iter().find(is_free)
+    }
+
+    fn draw_legend(&self, drawing: &mut Drawing, area: Rect) {
+        let em = drawing.font();
         drawing.fill_rect(area, [255; 3]);
         for (k, curve) in self.curves.iter().enumerate() {
             let y = area.top + (1.4 * k as f64 + 1.4) * em;
@@ -136,21 +148,37 @@ impl Layout for Figure {
         let y_ends = span(all().map(|at| at[1]).chain(levels.clone()))?;
         let x = axis(self.x.1, x_ends, &self.x.0);
         let y = axis(self.y.1, y_ends, &self.y.0);
-        let (mut drawing, plot) = titled(&self.title, &y, 1.5);
+        let on_paper = |plot: Rect| -> Vec<Vec<[f64; 2]>> {
+            let at = |at: &[f64; 2]| plot.at(x.share(at[0]), y.share(at[1]));
+            let lines = curves.iter();
+            lines
+                .map(|points| points.iter().map(at).collect())
+                .collect()
+        };
+        let (mut drawing, mut plot) = titled(&self.title, &y, 1.5);
+        let mut drawn = on_paper(plot);
+        let mut legend = self.free_corner(plot, &drawn);
+        if self.curves.len() > 1 && legend.is_none() {
+            // Beside the plot it hides nothing.
+            let [wide, high] = self.legend_size();
+            (drawing, plot) = titled(&self.title, &y, wide + 1.5);
+            drawn = on_paper(plot);
+            legend = Some(Rect {
+                left: plot.right() + 0.5 * TYPE,
+                top: plot.top,
+                wide: wide * TYPE,
+                high: high * TYPE,
+            });
+        }
         drawing.grid(plot, &x, &y);
         for level in levels {
             let at = y.share(level);
             drawing.line(vec![plot.at(0.0, at), plot.at(1.0, at)], LEVEL, 1.0);
         }
-        let on_paper = |at: &[f64; 2]| plot.at(x.share(at[0]), y.share(at[1]));
-        let drawn = curves
-            .iter()
-            .map(|points| points.iter().map(on_paper).collect());
-        let drawn: Vec<Vec<[f64; 2]>> = drawn.collect();
         for (k, (curve, points)) in self.curves.iter().zip(&drawn).enumerate() {
             if curve.mark == Mark::Computed {
                 for at in points {
-                    drawing.dot(*at, 4.0, curve.colour(k));
+                    drawing.dot(*at, DOT, curve.colour(k));
                 }
             }
             drawing.line(points.clone(), curve.colour(k), curve.width());
@@ -158,8 +186,8 @@ impl Layout for Figure {
         drawing.frame(plot);
         drawing.axis(plot, Side::Below, &x);
         drawing.axis(plot, Side::Left, &y);
-        if self.curves.len() > 1 {
-            self.draw_legend(&mut drawing, plot, &drawn);
+        if let Some(area) = legend.filter(|_| self.curves.len() > 1) {
+            self.draw_legend(&mut drawing, area);
         }
         Some(drawing)
     }
@@ -169,7 +197,7 @@ impl Curve {
     fn colour(&self, k: usize) -> Rgb {
         match self.mark {
             Mark::Computed => COLOURS[k % COLOURS.len()],
-            Mark::Formula => [130; 3],
+            Mark::Formula => GREYS[k % GREYS.len()],
         }
     }
 
@@ -216,6 +244,38 @@ mod tests {
         assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
         assert_eq!(&bytes[16..24], [0, 0, 3, 132, 0, 0, 2, 88]);
         assert!(figure.png(&folder.path().join("no/figure.png")).is_err());
+    }
+
+    /// A curve through every corner leaves none for the names: they stand beside the plot, and each point is seen.
+    #[test]
+    fn the_names_of_curves_hide_none_of_them() {
+        let mut crossed = figure(&[(0.0, 1.0), (1.0, 0.01), (0.0, 0.01), (1.0, 1.0)]);
+        let second = Curve {
+            name: "another".to_owned(),
+            ..crossed.curves[0].clone()
+        };
+        let name_at = |figure: &Figure| -> f64 {
+            let text = figure.svg().unwrap().unwrap();
+            let place = text.split("another").next().unwrap();
+            let x = place.rsplit(" x=\"").next().unwrap();
+            x.split('"').next().unwrap().parse().unwrap()
+        };
+        crossed.curves.push(second.clone());
+        let beside = name_at(&crossed);
+        let mut calm = figure(&[(0.0, 0.01), (1.0, 0.01), (1.0, 0.02)]);
+        calm.curves.push(Curve {
+            points: vec![(0.0, 1.0)],
+            ..second
+        });
+        let within = name_at(&calm);
+        let ends = |figure: &Figure| {
+            let text = figure.svg().unwrap().unwrap();
+            let points = text.split("<polygon points=\"").skip(1);
+            let first = points.filter_map(|points| points.split([',', ' ']).next()?.parse().ok());
+            first.fold(0.0, f64::max)
+        };
+        assert!(beside > ends(&crossed), "{beside} {}", ends(&crossed));
+        assert!(within < ends(&calm), "{within} {}", ends(&calm));
     }
 
     #[test]
