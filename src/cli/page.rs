@@ -23,7 +23,7 @@ p.sub { color: #565b66; margin: .2rem 0 1rem } p.head { margin: .2rem 0 } p.head
 table { border-collapse: collapse; font-size: .8rem; font-variant-numeric: tabular-nums; margin: .3rem 0 }
 th, td { padding: .15rem .45rem; text-align: right; border-bottom: 1px solid #e3e5e9; vertical-align: bottom }
 th:first-child, td:first-child, table.words td { text-align: left } table.words td { vertical-align: top }
-th small { font-weight: normal; color: #565b66 } tr.worst td { background: #fdecea }
+td { white-space: nowrap } table.words td { white-space: normal } th small { font-weight: normal; color: #565b66 } tr.worst td { background: #fdecea }
 div.wide { overflow-x: auto } div.figures { display: grid; grid-template-columns: 1fr 1fr; gap: .6rem }
 div.figures figure { margin: 0 } svg { width: 100%; height: auto } pre { white-space: pre-wrap; font-size: .8rem }
 li { margin: .15rem 0 } h2, figure, tr { break-inside: avoid } h2 { break-after: avoid }

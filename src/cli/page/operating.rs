@@ -39,7 +39,7 @@ fn contact(scene: &Scene) -> String {
         None => ", a line".to_owned(),
     };
     format!(
-        "of the scene as it stands: R {} mm{across}; Hertz pressure {}, half-width {}; U {} m/s, S = {}",
+        "R {} mm{across}; Hertz pressure {}, half-width {}; U {} m/s, S = {}",
         sig(MM * scene.contact.rx_m, 4),
         GPA.show(hertz.p_max_pa, 4),
         UM.show(hertz.a_m, 4),

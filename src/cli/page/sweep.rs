@@ -62,7 +62,7 @@ const LIVES: [Shown; 20] = [
     ("life_models_low", "models from", "", 1.0),
     ("life_models_high", "to", "", 1.0),
     ("life_global", "paper's count", "", 1.0),
-    ("cycle_factor", "cycles", "", 1.0),
+    ("cycle_factor", "cycles × basis", "", 1.0),
     ("peak_factor", "peaks", "", 1.0),
     ("traction_factor", "traction", "", 1.0),
     ("life_body", "body", "", 1.0),
@@ -93,6 +93,7 @@ pub(super) fn page(root: &Path) -> Result<Markup, Failure> {
         (figures(&drawn))
         h2 { "What runs" }
         (facts(&sweep.path_keys()))
+        p.sub { "The base scene. Its smooth contact is what “life, common” is relative to; what a case varies is in the table below." }
         (facts(&operating::rows(&scene)))
         h2 { "Where and how" }
         (table(&sweep, &rows, &POINTS, worst))
@@ -162,6 +163,8 @@ fn in_short(sweep: &Sweep, rows: &Rows, flank: &[FlankLife], worst: Option<usize
         let (case, value) = known.min_by(|a, b| a.1.total_cmp(&b.1))?;
         Some((sig(value, 3), place(sweep, rows, case)))
     };
+    let weakest = flank.iter().filter_map(|at| Some((at, at.weaker()?)));
+    let weakest = weakest.min_by(|a, b| a.1.1.total_cmp(&b.1.1));
     let hours = flank.iter().filter_map(|at| Some((at.hours?, at)));
     let hours = hours.min_by(|a, b| a.0.total_cmp(&b.0));
     let unfinished = rows
@@ -170,12 +173,21 @@ fn in_short(sweep: &Sweep, rows: &Rows, flank: &[FlankLife], worst: Option<usize
         .filter(|r| r.end != CaseEnd::Converged)
         .count();
     html! {
+        @if let Some((at, (flank, turns))) = weakest {
+            p.head {
+                b { "shortest" } "the " (["pinion", "wheel"][flank]) ", " (sig(1e3 * at.path_m, 3)) " mm from A: "
+                (sig(turns, 3)) " turns of the pinion over the loading cycles of the base scene's smooth contact"
+            }
+        }
         @if let Some((case, told, common)) = &told {
             p.head {
-                b { "shortest" } (place(sweep, rows, *case)) ": " (told.life)
+                b { @if weakest.is_some() { "contact" } @else { "shortest" } } (place(sweep, rows, *case)) ": " (told.life)
                 "; " (sig(*common, 3)) " over the base scene's smooth contact"
             }
-            p.head { b { "because" } (told.because) }
+            p.head {
+                b { "because" } (told.because)
+                @if weakest.is_some() { " by that; but a flank meets its mate once a turn, however fast it rolls" }
+            }
             p.head { b { "trust" } (told.trust) }
         }
         @if let Some(ring) = rows.ring(sweep) {
@@ -216,11 +228,11 @@ fn table(sweep: &Sweep, rows: &Rows, shown: &[Shown], worst: Option<usize>) -> M
     let said = |name: &str| axes.iter().any(|&axis| sweep.axes[axis].key == name);
     html! {
         div.wide { table {
-            tr {
+            thead { tr {
                 th { "case" }
                 @for &axis in &axes { th { (sweep.axes[axis].key) br; small { (sweep.axes[axis].unit()) } } }
                 @for (name, head, unit, ..) in &found { @if !said(name) { th { (head) br; small { (unit) } } } }
-            }
+            } }
             @for case in 0..sweep.len() {
                 tr.worst[worst == Some(case)] {
                     td { (case) }
@@ -253,11 +265,11 @@ fn flanks(sweep: &Sweep, places: &[FlankLife]) -> Markup {
             "and what each takes of the shorter life."
         }
         div.wide { table {
-            tr {
+            thead { tr {
                 th { "from A" br; small { "mm" } }
                 th { "pinion" } th { "wheel" } th { "hours" }
                 @if loads.len() > 1 { @for k in 1..=loads.len() { th { "load " (k) br; small { "%" } } } }
-            }
+            } }
             @for at in places {
                 tr {
                     td { (sig(1e3 * at.path_m, 3)) }
@@ -272,7 +284,7 @@ fn flanks(sweep: &Sweep, places: &[FlankLife]) -> Markup {
 
 /// What to know before trusting the numbers: each kind once, in the words of its first case.
 fn cautions(rows: &Rows) -> Markup {
-    let mut found: Vec<(Option<CautionCode>, &str, Vec<usize>)> = Vec::new();
+    let mut found: Vec<Kind> = Vec::new();
     for record in &rows.records {
         let failed = (record.end != CaseEnd::Converged).then(|| {
             record
@@ -286,10 +298,19 @@ fn cautions(rows: &Rows) -> Markup {
             .iter()
             .map(|caution| (Some(caution.code), &*caution.text));
         for (code, text) in failed.map(|why| (None, why)).into_iter().chain(own) {
-            match found.iter_mut().find(|(known, ..)| *known == code) {
-                Some((.., cases)) if cases.last() == Some(&record.index) => {}
-                Some((.., cases)) => cases.push(record.index),
-                None => found.push((code, text, vec![record.index])),
+            match found.iter_mut().find(|kind| kind.code == code) {
+                Some(kind) => {
+                    kind.is_one_text &= kind.text == text;
+                    if kind.cases.last() != Some(&record.index) {
+                        kind.cases.push(record.index);
+                    }
+                }
+                None => found.push(Kind {
+                    code,
+                    text,
+                    is_one_text: true,
+                    cases: vec![record.index],
+                }),
             }
         }
     }
@@ -297,20 +318,31 @@ fn cautions(rows: &Rows) -> Markup {
         h2 { "Cautions" }
         @if found.is_empty() { p { "none" } }
         ul {
-            @for (_, text, cases) in &found { li { (text) " (" (of_cases(cases, rows.records.len())) ")" } }
+            @for kind in &found { li { (kind.text) " (" (kind.of_cases(rows.records.len())) ")" } }
         }
     }
 }
 
-fn of_cases(cases: &[usize], all: usize) -> String {
-    if cases.len() == all {
-        return "all cases".to_owned();
-    }
-    let list: Vec<String> = cases.iter().map(usize::to_string).collect();
-    match &list[..] {
-        [one] => format!("case {one}"),
-        [first, ..] => format!("in the words of case {first}; cases {}", list.join(", ")),
-        [] => String::new(),
+/// A kind of caution, in the words of the first of its cases.
+struct Kind<'a> {
+    code: Option<CautionCode>,
+    text: &'a str,
+    is_one_text: bool,
+    cases: Vec<usize>,
+}
+
+impl Kind<'_> {
+    fn of_cases(&self, all: usize) -> String {
+        let list: Vec<String> = self.cases.iter().map(usize::to_string).collect();
+        let which = match &list[..] {
+            [one] => return format!("case {one}"),
+            _ if list.len() == all => "all cases".to_owned(),
+            _ => format!("cases {}", list.join(", ")),
+        };
+        if self.is_one_text {
+            return which;
+        }
+        format!("in the words of case {}; {which}", self.cases[0])
     }
 }
 
@@ -342,7 +374,7 @@ fn sources(sweep: &Sweep, rows: &Rows) -> Markup {
 }
 
 /// Column without which the line is left out, what it is, formula, source.
-const SOURCES: [(&str, &str, &str, &str); 13] = [
+const SOURCES: [(&str, &str, &str, &str); 14] = [
     (
         "rho_1_m",
         "tooth",
@@ -371,7 +403,7 @@ const SOURCES: [(&str, &str, &str, &str); 13] = [
         "h_central_m",
         "film, pressure, friction",
         "simulated: transient mixed lubrication with the roughness of both bodies",
-        "this program, means over the last passage",
+        "this program, means over the last passage; p max and film, least: the greatest and the least of it",
     ),
     (
         "lambda_ratio",
@@ -382,7 +414,7 @@ const SOURCES: [(&str, &str, &str, &str); 13] = [
     (
         "lambda_gf",
         "λ GF",
-        "h/Ra, h = 1600 ρ G^0.6 U^0.7 W^−0.13 S^0.22 µm, Ra = (Ra₁ + Ra₂)/2; with [heat] at the viscosity of Blok's flash temperature; without factors of dynamics and application",
+        "h/Ra, h = 1600 ρ G^0.6 U^0.7 W^−0.13 S^0.22 µm with ρ = R in mm, Ra = (Ra₁ + Ra₂)/2; with [heat] at the viscosity of Blok's flash temperature; without factors of dynamics and application",
         "ISO/TS 6336-22 as quoted in Procedia Struct. Integrity 57 (2024) 199",
     ),
     (
@@ -395,6 +427,12 @@ const SOURCES: [(&str, &str, &str, &str); 13] = [
         "life_common",
         "life, common",
         "life × load factor: over that of the smooth contact of the base scene, so that cases can be compared",
+        "this program",
+    ),
+    (
+        "cycle_factor",
+        "life",
+        "cycles × basis × peaks × traction; basis: from a body's own loading cycles to those of the faster one, in which damage is counted",
         "this program",
     ),
     (

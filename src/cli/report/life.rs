@@ -132,7 +132,7 @@ fn add_pits(lines: &mut Lines, s: &Summary) {
             format!("; one cycle per passage below {}", UM.show(depth_m, 3))
         });
         let what = format!(
-            "body {}: {} deep, {} from a crest, damage {} times the smooth contact's{single}",
+            "body {}: {} deep, {} from a crest, damage of one of its crossings {} times that of the smooth contact's worst point{single}",
             body + 1,
             UM.show(pit.depth_m, 3),
             UM.show(pit.place_m, 3),

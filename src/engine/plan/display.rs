@@ -249,7 +249,7 @@ impl Plan {
         }
         if let Some(record) = self.record {
             lines.push(format!(
-                "recording: scalars {}, fields {} ({} frames, about {} of at most {})",
+                "recording: scalars {}, fields {} ({} pictures, about {} of at most {})",
                 every(record.scalars_every_steps),
                 every(record.every_steps),
                 record.frames,

@@ -7,6 +7,8 @@
 //! What takes the life is the least of own cycles, peaks and traction. The basis takes none: it is the change of unit from
 //! a body's own loading cycles to those of the faster one, in which damage is counted (`damage_count.rs`).
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Caution, CautionCode, Frame, LifeEstimate, Summary};
@@ -217,12 +219,16 @@ impl Numbers {
 
     /// The widest of the doubts, and the weightiest caution that is none of them.
     fn trust(&self, cautions: &[Caution]) -> String {
-        let times = |[low, high]: [f64; 2]| (high / low).sqrt();
-        let (mesh, models) = (times(self.band), times(self.models));
-        let oil = self.oil.map(times);
-        let use_it = match mesh.max(models).max(oil.unwrap_or(1.0)) {
-            ..1.25 => "to a quarter",
-            ..2.0 => "to a factor of two",
+        let doubt = |range| Doubt::of(self.life, range);
+        let (mesh, models, oil) = (doubt(self.band), doubt(self.models), self.oil.map(doubt));
+        let known = [Some(mesh), Some(models), oil].into_iter().flatten();
+        let widest = known.map(Doubt::most).fold(1.0, f64::max);
+        // What nobody has computed is no reason for trust.
+        let says_oil = cautions.iter().any(|one| one.code == CautionCode::OilLaw);
+        let is_open = says_oil && oil.is_none();
+        let use_it = match widest {
+            ..1.25 if !is_open => "to a quarter",
+            ..2.0 if !is_open => "to a factor of two",
             ..10.0 => "as an order of magnitude; compare, do not predict",
             _ => "in its direction alone",
         };
@@ -242,14 +248,45 @@ impl Numbers {
                 CautionCode::ModelRange | CautionCode::ElasticOnly
             )
         };
-        let oil = oil.map_or_else(String::new, |oil| format!(", oil's law x {}", sig(oil, 3)));
+        let oil = match oil {
+            Some(oil) => format!(", oil's law {oil}"),
+            None if is_open => ", oil's law not varied here".to_owned(),
+            None => String::new(),
+        };
         let caution = cautions.iter().find(other);
         let caution = caution.map_or_else(String::new, |one| format!("; {}", one.text));
-        format!(
-            "{use_it}: {what} x {} either way, count and model x {}{oil}{absolute}{caution}",
-            sig(mesh, 3),
-            sig(models, 3)
-        )
+        format!("{use_it}: {what} {mesh}, count and model {models}{oil}{absolute}{caution}")
+    }
+}
+
+/// How many times shorter and longer than it is said a life may be.
+#[derive(Debug, Clone, Copy)]
+struct Doubt {
+    shorter: f64,
+    longer: f64,
+}
+
+impl Doubt {
+    fn of(life: f64, [low, high]: [f64; 2]) -> Self {
+        Self {
+            shorter: (life / low).max(1.0),
+            longer: (high / life).max(1.0),
+        }
+    }
+
+    fn most(self) -> f64 {
+        self.shorter.max(self.longer)
+    }
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [shorter, longer] = [self.shorter, self.longer].map(|times| sig(times, 3));
+        if shorter == longer {
+            write!(f, "x {longer} either way")
+        } else {
+            write!(f, "{shorter} times less to {longer} times more")
+        }
     }
 }
 
@@ -315,12 +352,21 @@ mod tests {
         );
         assert!(told.life.contains("0.0900 to 0.110"), "{}", told.life);
         assert!(told.life.contains("0.0500 to 0.200"), "{}", told.life);
-        // √(.2/.05)
         assert!(
-            told.trust.contains("count and model x 2.00"),
+            told.trust.contains("count and model x 2.00 either way"),
             "{}",
             told.trust
         );
+        frame
+            .metrics
+            .life
+            .as_mut()
+            .expect("given")
+            .detail
+            .spread_low = 0.1;
+        let told = frame.headline().expect("a life");
+        let words = "count and model 1.00 times less to 2.00 times more";
+        assert!(told.trust.contains(words), "{}", told.trust);
         assert!(
             told.trust.starts_with("as an order of magnitude"),
             "{}",
