@@ -266,6 +266,45 @@ await test("a lesson asks and answers", async () => {
   assert.deepEqual(page.faults, []);
 });
 
+// Twice: with the first answer of each question, and with the one that was told to be right. 15 minutes: only when named.
+if (word === "every lesson") await test("every lesson by taps on a phone, its questions answered wrong and right", async () => {
+  const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+  const folder = path.resolve(path.dirname(new URL(import.meta.url).pathname), "../../assets/lessons");
+  for (const name of fs.readdirSync(folder).filter((file) => file.endsWith(".toml")).map((file) => path.parse(file).name)) {
+    const right = {};
+    for (const play of [1, 2]) {
+      const page = await opened(`${disk}#lesson=${name}`, phone);
+      const times = [], verdicts = [];
+      for (let beat = 1, beats = 1; beat <= beats; beat++) {
+        const began = Date.now();
+        const at = (now) => new RegExp(`\\(${beat}/(\\d+)\\)`).exec(now.text);
+        const now = await until(page, `${name}, beat ${beat}`, at, 60);
+        beats = Number(at(now)[1]);
+        const asked = () => page.locator("#answers button").allInnerTexts();
+        await page.waitForTimeout(1500);
+        const answers = await asked();
+        if (answers.length) {
+          const k = play === 2 ? answers.findIndex((answer) => answer.endsWith(right[beat])) : 0;
+          assert.ok(k >= 0, `${name}, beat ${beat}: ${right[beat]} is none of ${answers}`);
+          await page.tap(`#answers button:nth-child(${k + 1})`);
+          const told = await until(page, `${name}: a verdict`, (now) => /Right: |You said /.test(now.text), 90);
+          const verdict = /(?:Right: |it is )[^\u201c]*\u201c([^\u201d]*)\u201d/.exec(told.text)[1];
+          const isRight = /Right: /.test(told.text);
+          assert.equal(isRight, answers[k].endsWith(verdict), told.text);
+          if (play === 2) assert.ok(isRight, `${name}, beat ${beat}: ${told.text}`);
+          right[beat] = verdict;
+          verdicts.push(isRight ? "right" : "wrong");
+        }
+        times.push(Math.round((Date.now() - began) / 1000));
+        if (beat < beats) await page.tap('#steps [data-key="n"]');
+      }
+      console.log(`     ${name}: beats of ${times.join(", ")} s; answered ${verdicts.join(", ") || "nothing"}`);
+      assert.deepEqual(page.faults, []);
+      await page.context().close();
+    }
+  }
+});
+
 await test("surfaces age by a button, and are new again", async () => {
   const page = await opened(`${disk}#S=0.5&nodes=65`);
   await alive(page);

@@ -214,9 +214,25 @@ pub enum Aged {
     Pits,
 }
 
+impl Aged {
+    /// Its name on the screen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Life => "life over cycles",
+            Self::Rq => "Rq over cycles",
+            Self::Lambda => "λ over cycles",
+            Self::Depth => "wear over cycles",
+            Self::Pressure => "greatest pressure",
+            Self::Friction => "friction",
+            Self::Pits => "pitted area",
+        }
+    }
+}
+
 impl CurveKind {
     const NEW: [Self; 3] = [Self::Life, Self::Friction, Self::Stribeck];
     const AGED: [Self; 10] = [
+        Self::Life,
         Self::Aged(Aged::Life),
         Self::Aged(Aged::Rq),
         Self::Aged(Aged::Lambda),
@@ -224,10 +240,19 @@ impl CurveKind {
         Self::Aged(Aged::Pressure),
         Self::Aged(Aged::Friction),
         Self::Aged(Aged::Pits),
-        Self::Life,
         Self::Friction,
         Self::Stribeck,
     ];
+
+    /// Its name on the screen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Life => "life against S",
+            Self::Friction => "friction against S",
+            Self::Stribeck => "Stribeck",
+            Self::Aged(aged) => aged.name(),
+        }
+    }
 
     /// The next one of a scene whose surfaces age, or stay new.
     pub(crate) fn next(self, ages: bool) -> Self {

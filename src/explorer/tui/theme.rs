@@ -300,6 +300,7 @@ fn in_ascii(text: &str) -> String {
             'σ' => plain.push_str("sigma"),
             'τ' => plain.push_str("tau"),
             '₁' => plain.push('1'),
+            'ᵢ' => plain.push('i'),
             '₂' => plain.push('2'),
             '×' => plain.push('x'),
             '→' => plain.push_str("->"),

@@ -181,6 +181,11 @@ impl App {
     pub(super) fn next_curve(&mut self) -> Vec<Effect> {
         let before = self.view.curve.along();
         self.view.curve = self.view.curve.next(self.run.setup.scene.age.is_some());
+        // A screen without room for curves draws them in the enlarged panel alone.
+        self.say(format!(
+            "{} (Enter on the life draws it large)",
+            self.view.curve.name()
+        ));
         if self.view.curve.along() == before {
             return Vec::new();
         }

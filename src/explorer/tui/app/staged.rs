@@ -10,6 +10,7 @@ use crate::tui::choice::{Draft, Form};
 use crate::tui::kinds::{Aged, CurveKind, Overlay};
 use crate::tui::tables;
 use crate::tui::wiring::{Setup, Shown};
+use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Age, CycleBasis, Scene, Wear};
 use asperity_engine::sim::Stage;
 
@@ -201,6 +202,14 @@ impl App {
     /// The scene with the knobs where they are going, as TOML.
     pub fn scene_toml(&self) -> String {
         self.scene_now().to_toml()
+    }
+
+    /// What is known of the scene as the knobs have made it; `None`: none is turned.
+    pub fn turned_setup(&self) -> Option<Setup> {
+        let scene = self.scene_now();
+        let is_turned = scene != *self.run.setup.scene;
+        let plan = is_turned.then(|| Plan::new(&scene))?.ok()?;
+        Some(Setup::of(Arc::new(scene), &self.run.setup.name, &plan))
     }
 
     /// The scene with the knobs where they are going.

@@ -165,6 +165,8 @@ pub(crate) struct LessonState {
     pub(crate) tour: Option<TourState>,
     /// The lesson's scene that runs; `None`: the user's own.
     pub(super) staged: Option<Staging>,
+    /// Whether it is begun anew although it runs: its crests stand where the lesson's beats have left them.
+    pub(super) restage: bool,
     /// The user's own scene and its name, for the end of the tour.
     pub(super) own_scene: (Arc<Scene>, String),
 }
@@ -194,6 +196,7 @@ impl App {
                 chosen: 0,
                 tour: None,
                 staged: None,
+                restage: false,
                 own_scene: (Arc::clone(&setup.scene), setup.name.clone()),
             },
             run: RunState {

@@ -7,7 +7,7 @@ use super::data::{Effect, ErrandKind};
 use super::state::App;
 use crate::tui::action::Action;
 use crate::tui::dial::Dial;
-use crate::tui::kinds::{Overlay, RunPace};
+use crate::tui::kinds::{CurveKind, Overlay, RunPace};
 use crate::tui::lessons::{FoundAnswer, Lesson, TourPhase, TourState};
 use asperity_session::run::Command;
 
@@ -102,14 +102,24 @@ impl App {
             return Vec::new();
         };
         let answered = tour.beat().question.is_some() && tour.phase != TourPhase::Asks;
-        if !answered {
-            return self.begin_beat(tour.place, tour.beat.saturating_sub(1));
-        }
-        let (place, beat, before) = (tour.place, tour.beat, tour.before.clone());
-        let effects = self.begin_beat(place, beat);
-        // What it is compared with is the end of the beat before it, and not its own.
+        let place = tour.place;
+        let beat = if answered {
+            tour.beat
+        } else {
+            tour.beat.saturating_sub(1)
+        };
+        // What a beat is compared with is the end of the one before it, as it was the first time.
+        let mut befores = tour.befores.clone();
+        befores.truncate(beat);
+        self.lesson.restage = true;
+        let mut effects = self.begin_beat(place, beat);
         if let Some(tour) = &mut self.lesson.tour {
-            tour.before = before;
+            tour.before = befores.last().cloned().flatten();
+            tour.befores = befores;
+        }
+        // A question is asked of the scene as the lesson begins it, and not of its answer.
+        if self.is_asked() {
+            effects.extend(self.staged());
         }
         effects
     }
@@ -140,6 +150,12 @@ impl App {
         }
         let moves = self.life().is_some_and(|life| !life.settled);
         (moves && !tour.is_overdue(self.passages())).then_some("the average still moves")
+    }
+
+    /// Whether a question waits for its answer.
+    pub fn is_asked(&self) -> bool {
+        let tour = self.lesson.tour.as_ref();
+        tour.is_some_and(|tour| tour.phase == TourPhase::Asks)
     }
 
     /// Whether a knob is under way to where it was set.
@@ -209,6 +225,15 @@ impl App {
         }
         // The end of the beat before, which the numbers of this one may be compared with.
         next.before = self.frame().filter(|_| beat > 0).map(Arc::clone);
+        if beat > 0 {
+            let befores = self.lesson.tour.as_ref().map(|tour| tour.befores.clone());
+            next.befores = befores.unwrap_or_default();
+            next.befores.push(next.before.clone());
+        } else {
+            self.lesson.restage = true;
+            self.view.curve = CurveKind::default();
+            (self.view.pinned, self.view.frozen) = (None, None);
+        }
         next.show(self.passages(), self.now);
         if next.beat().question.is_some() {
             next.phase = TourPhase::Asks;
@@ -238,27 +263,32 @@ impl App {
 
     /// Plays a beat: its scene first, where another one runs; its words go to the recording.
     fn play(&mut self) -> Vec<Effect> {
-        let Some(tour) = &self.lesson.tour else {
-            return Vec::new();
-        };
-        let staging = tour.lesson.staging(tour.beat);
-        let wanted = staging.filter(|_| self.offers(ErrandKind::Rebuild));
-        if let Some(staging) =
-            wanted.filter(|staging| self.lesson.staged.as_ref() != Some(*staging))
-        {
-            return match staging.load() {
-                Ok(scene) => {
-                    let name = staging.scene.clone();
-                    self.lesson.staged = Some(staging.clone());
-                    vec![Effect::Rebuild(Box::new(scene), file_stem(&name))]
-                }
-                Err(error) => {
-                    self.not_rebuilt(error.to_string());
-                    Vec::new()
-                }
-            };
+        match self.staged() {
+            Some(effect) => vec![effect],
+            None => self.show_beat(),
         }
-        self.show_beat()
+    }
+
+    /// Begins the scene of a beat, where another one runs, or this one from another place than the lesson's own.
+    fn staged(&mut self) -> Option<Effect> {
+        let tour = self.lesson.tour.as_ref()?;
+        let staging = tour.lesson.staging(tour.beat);
+        let staging = staging.filter(|_| self.offers(ErrandKind::Rebuild))?;
+        let again = std::mem::take(&mut self.lesson.restage);
+        if !again && self.lesson.staged.as_ref() == Some(staging) {
+            return None;
+        }
+        match staging.load() {
+            Ok(scene) => {
+                let name = file_stem(&staging.scene);
+                self.lesson.staged = Some(staging.clone());
+                Some(Effect::Rebuild(Box::new(scene), name))
+            }
+            Err(error) => {
+                self.not_rebuilt(error.to_string());
+                None
+            }
+        }
     }
 
     /// What a beat sets, shows and says; nothing while it asks.

@@ -109,6 +109,10 @@ impl App {
     /// What the last turn of a knob changed; `None`: none was turned.
     pub fn why(&self) -> Option<WhyLine> {
         let (then, now, of) = self.accounts()?;
+        // A lesson tells what was simulated; the formula may say the contrary of it.
+        if of == Leading::Formula && self.lesson.tour.is_some() {
+            return None;
+        }
         let before = self.choice.before_turn.as_ref()?;
         let places = self.choice.dials.iter().zip(&before.targets);
         let away = places.filter(|(dial, then)| (dial.target - **then).abs() > 1e-9 * then.abs());
@@ -190,9 +194,15 @@ fn changes(then: &LifeAccount, now: &LifeAccount) -> Vec<String> {
     };
     list.splice(0..0, n);
     let whole = |of: &Factors| of.life().map(|life| life * of.load);
+    let [old_load, new_load] = [old.load, new.load];
     match whole(old).zip(whole(new)) {
         Some((old, new)) if (new / old - 1.0).abs() >= 0.005 => {
-            list.push(format!("life ×{}", sig(new / old, 2)));
+            let with_load = if (new_load / old_load - 1.0).abs() >= 0.005 {
+                "life with the load"
+            } else {
+                "life"
+            };
+            list.push(format!("{with_load} ×{}", sig(new / old, 2)));
         }
         Some(_) => list.push("life as before".to_owned()),
         None => {}
@@ -267,7 +277,7 @@ mod tests {
         (thick.film_m, thick.factors.load) = (3.0e-7, 0.05);
         assert_eq!(
             changes(&then, &thick),
-            ["load ×0.050", "film ×3.0", "life ×0.050"]
+            ["load ×0.050", "film ×3.0", "life with the load ×0.050"]
         );
         let dry = LifeAccount {
             film_m: 0.0,

@@ -52,6 +52,8 @@ pub struct TourState {
     pub said: Option<usize>,
     /// The frame at the end of the beat before.
     pub before: Option<Arc<Frame>>,
+    /// That of each beat from the second on, for who goes back.
+    pub befores: Vec<Option<Arc<Frame>>>,
     /// Passages when it began to show.
     since: f64,
     /// When its words were begun to be read.
@@ -77,6 +79,7 @@ impl TourState {
             },
             said: None,
             before: None,
+            befores: Vec::new(),
             since: 0.0,
             read_from: Duration::ZERO,
             set_to: Vec::new(),

@@ -179,15 +179,18 @@ pub(super) fn plan(app: &App, within: Rect, buffer: &mut Buffer) {
         lines.extend(cautions.iter().map(|caution| text(&caution.text)));
         lines.push(Line::default());
     }
-    if !app.run.setup.left_out.is_empty() {
+    // The plan of what the knobs have made of the scene.
+    let turned = app.turned_setup();
+    let setup = turned.as_ref().unwrap_or(&app.run.setup);
+    if !setup.left_out.is_empty() {
         lines.push(theme.line("Not modelled or not needed", Role::Warn));
-        for left in &app.run.setup.left_out {
+        for left in &setup.left_out {
             let stage = theme.span(format!("  {}: ", left.stage), Role::Strong);
             lines.push(Line::from(vec![stage, Span::raw(theme.words(&left.why))]));
         }
         lines.push(Line::default());
     }
-    let plan = app.run.setup.plan_text.lines();
+    let plan = setup.plan_text.lines();
     lines.extend(plan.map(|line| Line::raw(theme.words(line))));
     Overlay::new(app, within, "plan").text(100, &lines, "i closes", buffer);
 }

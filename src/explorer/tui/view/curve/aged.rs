@@ -50,7 +50,7 @@ pub(super) fn figure(app: &App, aged: Aged) -> CurveFigure {
         format!("{} at {} cycles", value.trim_end(), sig(age.cycles, 2))
     });
     CurveFigure {
-        name: name(aged),
+        name: aged.name(),
         points_name: if other.is_empty() {
             ["so far ", ""]
         } else {
@@ -66,18 +66,6 @@ pub(super) fn figure(app: &App, aged: Aged) -> CurveFigure {
         y_ends,
         foot: ["new".to_owned(), now, sig(most, 1)],
         ..CurveFigure::default()
-    }
-}
-
-fn name(aged: Aged) -> &'static str {
-    match aged {
-        Aged::Life => "life over cycles",
-        Aged::Rq => "Rq over cycles",
-        Aged::Lambda => "λ over cycles",
-        Aged::Depth => "wear over cycles",
-        Aged::Pressure => "greatest pressure",
-        Aged::Friction => "friction",
-        Aged::Pits => "pitted area",
     }
 }
 

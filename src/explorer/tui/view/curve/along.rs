@@ -94,6 +94,12 @@ pub(super) fn goes_to(app: &App, x: f64) -> Option<Action> {
     }
 }
 
+/// What was simulated along a line; nothing while a lesson asks what it would show.
+fn seen(app: &App, along: Along) -> impl Iterator<Item = &Found> {
+    let is_asked = app.is_asked();
+    app.simulated(along).filter(move |_| !is_asked)
+}
+
 /// Range and target of a knob.
 fn axis(app: &App, knob: Knob) -> ([f64; 2], f64) {
     let dial = app.choice.dials.iter().find(|dial| dial.knob == knob);
@@ -117,9 +123,9 @@ fn life(app: &App) -> CurveFigure {
             band: Some([low, high]),
         })
     };
-    let points: Vec<_> = app.simulated(Along::SlideRoll).filter_map(point).collect();
+    let points: Vec<_> = seen(app, Along::SlideRoll).filter_map(point).collect();
     let other = |found: &Found| Some((found.at.slide_roll, found.other?.log10()));
-    let other: Vec<_> = app.simulated(Along::SlideRoll).filter_map(other).collect();
+    let other: Vec<_> = seen(app, Along::SlideRoll).filter_map(other).collect();
     // At ±2 a body stands and the life falls without end: the axis is not for that.
     let known = formula.iter().filter(|place| place.0.abs() < MOVES);
     let known = known.map(|place| place.1);
@@ -131,7 +137,7 @@ fn life(app: &App) -> CurveFigure {
     let y = decades(known.chain(simulated).chain(now));
     let cycles = app.run.setup.scene.life.as_ref().map(|life| life.cycles);
     CurveFigure {
-        name: "life against S",
+        name: CurveKind::Life.name(),
         formula,
         points,
         other,
@@ -160,7 +166,7 @@ fn simulated_friction(app: &App, along: Along, x: impl Fn(&Found) -> f64) -> Cur
         y: found.friction,
         band: None,
     };
-    let points: Vec<_> = app.simulated(along).map(point).collect();
+    let points: Vec<_> = seen(app, along).map(point).collect();
     let most = points.iter().map(|point| point.y).fold(0.01, f64::max);
     let most = nice_ceiling(most);
     let settled = app.leading() == Leading::Simulated;
@@ -178,7 +184,7 @@ fn simulated_friction(app: &App, along: Along, x: impl Fn(&Found) -> f64) -> Cur
 fn friction(app: &App) -> CurveFigure {
     let (x, knob) = axis(app, Knob::SlideRoll);
     CurveFigure {
-        name: "friction against S",
+        name: CurveKind::Friction.name(),
         knob,
         x,
         foot: slide_roll_foot(x),
@@ -209,7 +215,7 @@ fn stribeck(app: &App) -> CurveFigure {
     };
     let unit = app.view.units.speed();
     CurveFigure {
-        name: "Stribeck",
+        name: CurveKind::Stribeck.name(),
         knob: place(knob),
         x: slow_and_fast.map(place),
         foot: [

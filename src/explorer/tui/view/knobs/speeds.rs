@@ -99,7 +99,7 @@ pub(in crate::tui::view) const SYMBOLS: &[(&str, &str)] = &[
     ("S", "(U₂−U₁)/U, U mean"),
     ("p_h", "max. Hertz pressure"),
     ("λ", "smooth film/rms"),
-    ("n", "1 + 2af|U₂−U₁|/|U|"),
+    ("n", "1 + 2af|U₂−U₁|/|Uᵢ|"),
     ("", "f: mate's crests/m"),
     ("life", "over smooth rolling"),
 ];
