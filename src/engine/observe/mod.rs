@@ -108,7 +108,7 @@ impl ObserveError {
 }
 
 /// Said of a file that no step came for.
-pub const NOTHING_CAME: &str = "no step came, so it was not written";
+pub const NOTHING_CAME: &str = "no step of the finest mesh came, so it was not written";
 
 /// What an observer did.
 #[derive(Debug, Clone, Default)]

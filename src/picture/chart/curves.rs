@@ -270,8 +270,9 @@ mod tests {
         let within = name_at(&calm);
         let ends = |figure: &Figure| {
             let text = figure.svg().unwrap().unwrap();
-            let points = text.split("<polygon points=\"").skip(1);
-            let first = points.filter_map(|points| points.split([',', ' ']).next()?.parse().ok());
+            let dots = text.split("<polygon ").skip(1);
+            let points = dots.filter_map(|dot| dot.split(" points=\"").nth(1));
+            let first = points.filter_map(|points| points.split(',').next()?.parse().ok());
             first.fold(0.0, f64::max)
         };
         assert!(beside > ends(&crossed), "{beside} {}", ends(&crossed));
