@@ -6,7 +6,7 @@
 //! average   over a period P                       |ln L now − ln L before| over the last P/2:  ≤ B/2 settled,  > B not
 //!           smooth and steady                     settled as solved
 //!           fields come back                      c · drift ≤ B/2 settled
-//!           not yet a period                      not settled; the band is wider by half of what both halves differ by
+//!           not settled                           the band is wider by what eight batches of the samples say of their mean, or more
 //!           no common period, 3 P                 settled; the band is as much wider as the mean wandered in 2 P
 //!                                                 (the mean of all that was seen, which converges as 1/distance)
 //!           cycles by their damage            when the surfaces of a period have crossed the contact; the band is wider by
@@ -68,11 +68,24 @@ impl Settling {
             self.settled = true;
             return;
         }
-        let life = |ln_integral: f64| ln_integral / self.law.weibull_slope;
+        self.judge(meter, stress_error, repeat, damage);
+        if !self.settled {
+            self.wander = (self.wander).max(meter.unsure() / self.law.weibull_slope);
+        }
+    }
+
+    fn judge(
+        &mut self,
+        meter: &LifeMeter,
+        stress_error: f64,
+        repeat: Option<Repeat>,
+        damage: Option<(&Marks, f64)>,
+    ) {
+        self.wander = 0.0;
         if !meter.covers() {
-            self.wander = life(meter.halves_apart());
             return;
         }
+        let life = |ln_integral: f64| ln_integral / self.law.weibull_slope;
         let band = self.law.stress_exponent * stress_error.max(2.0 * self.tolerance);
         let comes_back = repeat.is_some_and(|repeat| {
             let drift = repeat.drift.filter(|_| repeat.rhythm != Rhythm::Statistics);
@@ -87,7 +100,6 @@ impl Settling {
         let moved = meter.marks().moved(0.5).map(life);
         let most = if self.settled { band } else { 0.5 * band };
         self.settled = comes_back || moved.is_some_and(|moved| moved <= most);
-        self.wander = 0.0;
         if let Some((marks, covered)) = damage {
             self.settled &= covered >= 1.0 - 1e-9;
             self.wander = life(marks.wandered());

@@ -73,6 +73,10 @@ impl Shares {
     }
 }
 
+/// Batches of samples, and what holds the mean of eight means with 90 %: t of seven degrees of freedom.
+const BATCHES: usize = 8;
+const STUDENT: f64 = 1.895;
+
 /// One sample, or several merged.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct MergedPhase {
@@ -263,28 +267,35 @@ impl LifeMeter {
         &self.marks
     }
 
-    /// Half of what ln J of the later half of all samples differs by from that of the earlier one, of the body where it is more:
-    /// what their mean may still move by.
-    pub fn halves_apart(&self) -> f64 {
+    /// How far off ln J the mean of all samples may be, with 90 % and of the body where it is more, if what is to come is as
+    /// what was seen: by the means of [`BATCHES`] batches, s/√n times t of Student's distribution, over their mean; 0 of fewer
+    /// samples. Source: the method of batch means, Conway (1963).
+    pub fn unsure(&self) -> f64 {
         let list = &self.phases.list;
-        let mean = |body: BodyId, part: Range<usize>| {
-            let span: f64 = list.range(part.clone()).map(|phase| phase.span).sum();
-            let terms = list
-                .range(part)
-                .map(|phase| (phase.span, phase.shares.ln(Loading::Full(body))));
-            ln_sum(terms) - span.ln()
-        };
-        let half = list.len() / 2;
-        let apart = |body| {
-            let apart = mean(body, half..list.len()) - mean(body, 0..half);
-            // Nothing at any time has not moved.
-            if apart.is_finite() {
-                0.5 * apart.abs()
+        if list.len() < BATCHES {
+            return 0.0;
+        }
+        let of = |body: BodyId| {
+            let mean = |batch: Range<usize>| {
+                let span: f64 = list.range(batch.clone()).map(|phase| phase.span).sum();
+                let terms = list.range(batch);
+                let terms = terms.map(|phase| (phase.span, phase.shares.ln(Loading::Full(body))));
+                ln_sum(terms) - span.ln()
+            };
+            let whole = mean(0..list.len());
+            let at = |batch: usize| batch * list.len() / BATCHES;
+            let off = |batch: usize| (mean(at(batch)..at(batch + 1)) - whole).exp() - 1.0;
+            let squares: f64 = (0..BATCHES).map(|batch| off(batch).powi(2)).sum();
+            let n = BATCHES as f64;
+            let relative = STUDENT * (squares / (n * (n - 1.0))).sqrt();
+            // Nothing at any time is sure.
+            if relative.is_finite() {
+                relative.ln_1p()
             } else {
                 0.0
             }
         };
-        BodyId::BOTH.map(apart).into_iter().fold(0.0, f64::max)
+        BodyId::BOTH.map(of).into_iter().fold(0.0, f64::max)
     }
 
     /// Distance since the last restart, and the period of the mean.
@@ -442,6 +453,21 @@ mod tests {
         assert_eq!(f.cycle, 0.25);
         meter.restart();
         assert!(meter.mean().is_none());
+    }
+
+    /// Batches of 1 and 3 in turns: mean 2, s = √(8/7), so that ln J may be off by ln (1 + 1.895 √(1/7)/2) = 0.30610.
+    #[test]
+    fn an_unfinished_mean_is_as_unsure_as_its_batches_differ() {
+        let mut meter = LifeMeter::new(2, Window::closed(100.0), 64);
+        assert_eq!(meter.unsure(), 0.0);
+        for k in 0..16 {
+            // Two samples make a batch.
+            let batch = [[0.5, 1.5], [2.5, 3.5]][(k / 2) % 2];
+            let value = batch[k % 2];
+            meter.push(1.0, &shares(value, 2.0 * value));
+        }
+        assert_relative_eq!(meter.unsure(), 0.30610, max_relative = 1e-4);
+        assert!(!meter.covers());
     }
 
     #[test]

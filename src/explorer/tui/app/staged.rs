@@ -206,9 +206,10 @@ impl App {
 
     /// What is known of the scene as the knobs have made it; `None`: none is turned.
     pub fn turned_setup(&self) -> Option<Setup> {
-        let scene = self.scene_now();
-        let is_turned = scene != *self.run.setup.scene;
-        let plan = is_turned.then(|| Plan::new(&scene))?.ok()?;
+        let mut dials = self.choice.dials.iter();
+        let is_turned = dials.any(|dial| dial.target != dial.home);
+        let scene = is_turned.then(|| self.scene_now())?;
+        let plan = Plan::new(&scene).ok()?;
         Some(Setup::of(Arc::new(scene), &self.run.setup.name, &plan))
     }
 
