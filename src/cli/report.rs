@@ -47,7 +47,10 @@ pub(crate) fn text(scene: &Scene, outcome: &Outcome, errors: Option<&str>) -> St
         }
         for (n, done) in summary.rungs.iter().enumerate() {
             let name = if n == 0 { "meshes" } else { "" };
-            lines.add(name, format!("{}²: {}", done.nodes, rung(done)));
+            lines.add(
+                name,
+                format!("{}: {}", scene.kind().mesh(done.nodes), rung(done)),
+            );
         }
         add_results(&mut lines, scene, summary);
         if let Some(errors) = errors {

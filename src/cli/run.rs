@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use asperity_engine::observe::{Claim, ObserveError, Overwrite, leftovers, stopped_of};
 use asperity_engine::plan::Plan;
-use asperity_engine::scene::Scene;
+use asperity_engine::scene::{ContactKind, Scene};
 use asperity_session::run::{
     Checkpoint, Command, Companion, End, Ending, Outcome, Request, Session, asks_for_no_phase,
     hangs_on_oil_law, over_oil_laws, over_phases,
@@ -80,12 +80,13 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
             Ending::Steps(last_step)
         },
     };
+    let kind = prepared.scene.kind();
     let session = match saved {
         None if is_plain => Session::start(request),
         None => Session::repeat(request, turns),
         Some(saved) => Session::resume(request, saved),
     }?;
-    wait(&session, estimate_s, &interrupt, "");
+    wait(&session, kind, estimate_s, &interrupt, "");
     let mut outcome = session.join()?;
     if broken_off {
         outcome.cut_short();
@@ -204,7 +205,13 @@ fn estimate_errors(
     }
     let compared = Companion::start(scene, plan, threads).and_then(|companion| {
         let share = plan.cost.time_s / 7.0;
-        wait(&companion.session, share, interrupt, "error estimate, ");
+        wait(
+            &companion.session,
+            scene.kind(),
+            share,
+            interrupt,
+            "error estimate, ",
+        );
         let nodes = companion.nodes;
         Ok((nodes, companion.compare(summary)?.wall_s))
     });
@@ -251,7 +258,7 @@ pub(crate) fn conclude(
     Ok(outcome.exit_code())
 }
 
-fn wait(session: &Session, estimate_s: f64, interrupt: &AtomicBool, what: &str) {
+fn wait(session: &Session, kind: ContactKind, estimate_s: f64, interrupt: &AtomicBool, what: &str) {
     const TICKS: f64 = 1000.0;
     let bar = if estimate_s > WORTH_A_BAR_S {
         // Draws on a terminal only.
@@ -267,13 +274,19 @@ fn wait(session: &Session, estimate_s: f64, interrupt: &AtomicBool, what: &str) 
         }
         let status = session.handle.status();
         for rung in status.rungs.iter().skip(n_told) {
-            bar.suspend(|| tell(&format!("{}²: {}", rung.nodes, report::rung(rung))));
+            bar.suspend(|| {
+                tell(&format!(
+                    "{}: {}",
+                    kind.mesh(rung.nodes),
+                    report::rung(rung)
+                ));
+            });
         }
         n_told = n_told.max(status.rungs.len());
         bar.set_position((status.progress * TICKS) as u64);
         if bar.message().is_empty() || status.steps > 0 {
             bar.set_message(if status.steps == 0 && status.nodes > 0 {
-                format!("{what}{}²", status.nodes)
+                format!("{what}{}", kind.mesh(status.nodes))
             } else if status.steps == 0 {
                 format!("{what}start-up")
             } else {

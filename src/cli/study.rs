@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use asperity_engine::files::write_whole;
 use asperity_study::accuracy::accuracy;
+use asperity_study::bands::{bands, bands_report};
 use asperity_study::evidence::{
     agreement_plot, evidence, evidence_table, evidence_text, experiments_plot, kept_in,
 };
@@ -84,6 +85,7 @@ fn measured(args: &StudyArgs, progress: &mut StudyProgress) -> Result<Report, St
             extent, only, &args.set, threads, progress,
         )?)),
         StudyKind::Scaling => Ok(scaling_report(&scaling(extent, only, progress)?)),
+        StudyKind::Bands => Ok(bands_report(&bands(extent, only, threads, progress)?)),
         StudyKind::Heat => Ok(heat_report(&heat(extent, only, threads, progress)?)),
         StudyKind::Story => Ok(story_report(&story(extent, only, threads, progress)?)),
         StudyKind::Wear => Ok(wear_report(&wear(extent, only, threads, progress)?)),

@@ -1,6 +1,7 @@
 //! Studies: what results cost, and what they are worth. Every number is measured in the run that prints it.
 
 pub mod accuracy;
+pub mod bands;
 pub mod evidence;
 pub mod heat;
 mod machine;

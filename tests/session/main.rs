@@ -1,6 +1,5 @@
 //! The loop around a simulation, without a screen or a recorder: commands, outputs, every way to end; errors of the mesh.
 
-mod bands;
 #[path = "../common/engine.rs"]
 mod common;
 mod discretisation;
@@ -8,3 +7,4 @@ mod oil_laws;
 mod phases;
 mod rungs;
 mod session;
+mod stalls;

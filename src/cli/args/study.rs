@@ -68,6 +68,8 @@ impl StudyArgs {
 pub(crate) enum StudyKind {
     /// Error against run time, part by part
     Accuracy,
+    /// Whether bands hold a mesh twice as fine and a run four times as long, over presets and scenes drawn around them
+    Bands,
     /// Stiff and extreme cases: each converges or is named
     Stability,
     /// Cost of a step by grid, symmetry, threads and regime

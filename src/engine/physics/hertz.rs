@@ -67,6 +67,14 @@ impl ContactKind {
         }
     }
 
+    /// A mesh in words: nodes per side of a square of them, or along a line.
+    pub fn mesh(self, nodes: usize) -> String {
+        match self {
+            Self::Point => format!("{nodes}²"),
+            Self::Line => format!("{nodes} nodes"),
+        }
+    }
+
     /// a/a_0 = p_h/p_h0 for a ratio of loads.
     pub fn size_ratio(self, load_ratio: f64) -> f64 {
         match self {

@@ -183,8 +183,8 @@ pub(super) fn of_run(m: &Metrics, grounds: &Grounds, plan: &Plan) -> Vec<Caution
     all
 }
 
-fn gpa(value_pa: f64) -> String {
-    format!("{} GPa", sig(value_pa * 1e-9, 2))
+fn gpa(value_pa: f64, digits: i32) -> String {
+    format!("{} GPa", sig(value_pa * 1e-9, digits))
 }
 
 fn nm(value_m: f64) -> String {
@@ -216,8 +216,8 @@ fn pressure_beyond(grounds: &Grounds) -> Option<String> {
     (p > hardness && grounds.hardness_pa.is_none()).then(|| {
         format!(
             "greatest pressure {} is beyond what hardened steel carries (about {}, its hardness): asperities would flow",
-            gpa(p),
-            gpa(hardness)
+            gpa(p, 2),
+            gpa(hardness, 2)
         )
     })
 }
@@ -239,8 +239,8 @@ fn stress_beyond(grounds: &Grounds) -> Option<String> {
         format!(
             "greatest {} stress {} is beyond yield of hardened steel (about {}): {left_out}",
             measure.name(),
-            gpa(stress),
-            gpa(limit)
+            gpa(stress, 3),
+            gpa(limit, 3)
         )
     })
 }
@@ -251,7 +251,7 @@ fn still_yielding(grounds: &Grounds) -> Option<String> {
     (share > RUN_IN).then(|| {
         format!(
             "the surfaces still flow at {}: {} % of what has flowed so far did so in the last passage, so they are not run in",
-            gpa(hardness_pa),
+            gpa(hardness_pa, 2),
             sig(100.0 * share, 2)
         )
     })

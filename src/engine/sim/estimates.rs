@@ -76,6 +76,9 @@ pub struct LifeEstimate {
     pub life_relative_low: f64,
     /// Upper end of the band.
     pub life_relative_high: f64,
+    /// By how much of ln L the mean over the phases may still be off: part of the band on every mesh.
+    #[serde(default)]
+    pub unsettled: f64,
     /// Whether no step of a ramp, or of what the ramp left in the film, is in the average, and the average has stopped
     /// moving within its own band.
     pub settled: bool,

@@ -281,8 +281,8 @@ impl LifeStage {
         let lives = self.lives(scene, basis, now, counting)?;
         let (body, f) = self.governing(lives)?;
         let (low, high) = band(self.law, f.relative, now.stress_error);
-        let wander = self.settling.wander().exp();
-        let (low, high) = (low / wander, high * wander);
+        let unsettled = self.settling.wander();
+        let (low, high) = (low / unsettled.exp(), high * unsettled.exp());
         let by = |basis: CycleBasis| {
             let lives = self.lives(scene, basis, now, counting)?;
             Some(self.governing(lives)?.1.relative)
@@ -304,6 +304,7 @@ impl LifeStage {
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,
+            unsettled,
             settled: now.has_reference && self.settling.has_settled(),
             detail: LifeDetail {
                 model: Some(self.asked.model),

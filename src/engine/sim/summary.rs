@@ -209,7 +209,10 @@ pub struct Summary {
     /// Same of `friction_coefficient`.
     #[serde(default)]
     pub error_friction_coefficient: Option<f64>,
-    /// Same of ln `life_relative`; with it, the ends of life's band are `life_relative * exp(-+ error)`.
+    /// By how much of ln `life_relative` the mean over the phases may still be off.
+    #[serde(default)]
+    pub unsettled_ln_life: Option<f64>,
+    /// Same of ln `life_relative`, and what its mean may still be off; the ends of life's band are `life_relative * exp(-+ error)`.
     pub error_ln_life: Option<f64>,
     /// `life_relative` extrapolated to no spacing and no time step from the run and its companion on half the
     /// nodes, at second order (Richardson); `None`: there was no companion.

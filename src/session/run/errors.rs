@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! central film     |h(dx) − h(2dx)|
-//! life             |ln L(dx) − ln L(2dx)| + min(c (2π/n)²/48, |ln L|/10)
+//! life             |ln L(dx) − ln L(2dx)| + min(c (2π/n)²/48, |ln L|/10) + what its mean has not settled to
 //! minimum film     2 |h(dx) − h(2dx)|
 //! maximum p        2 |p(dx) − p(2dx)| + p_h (dx/a)²/8 + (p − p_h) (2π/n)²/8        n nodes of the shortest wave
 //! ```
@@ -133,7 +133,8 @@ fn set_by(
     let frictions = apart(fine.friction_coefficient, coarse.friction_coefficient);
     fine.error_friction_coefficient = Some(EXTREMES * frictions);
     let lives = fine.life_relative.zip(coarse.life_relative);
-    fine.error_ln_life = lives.map(life_error);
+    let unsettled = fine.unsettled_ln_life.unwrap_or(0.0);
+    fine.error_ln_life = lives.map(|lives| life_error(lives) + unsettled);
     fine.h_central_extrapolated_m = Some(limit(fine.h_central_m, coarse.h_central_m));
     fine.life_extrapolated = lives.map(|(one, two)| limit(one.ln(), two.ln()).exp());
     if let (Some(life), Some(error)) = (fine.life_relative, fine.error_ln_life) {
@@ -198,6 +199,7 @@ mod tests {
         let mut fine = Summary {
             h_central_m: 1.1,
             life_relative: Some(0.5),
+            unsettled_ln_life: Some(0.0),
             ..Summary::default()
         };
         let coarse = Summary {
@@ -216,5 +218,10 @@ mod tests {
         assert!((fine.life_relative_high.expect("set") - 0.625).abs() < 1e-12);
         let limit = (0.5_f64.ln() + (0.5_f64 / 0.4).ln() / 3.0).exp();
         assert!((fine.life_extrapolated.expect("set") - limit).abs() < 1e-12);
+        // Both meshes may agree on a mean that is off.
+        fine.unsettled_ln_life = Some(2_f64.ln());
+        set_by(&mut fine, &coarse, (crest, Order::Second), apart);
+        assert!((fine.life_relative_low.expect("set") - 0.2).abs() < 1e-12);
+        assert!((fine.life_relative_high.expect("set") - 1.25).abs() < 1e-12);
     }
 }

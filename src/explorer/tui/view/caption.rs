@@ -26,6 +26,9 @@ const GOES_ON: [Hint; 3] = [
     (" T ends ", Some(Action::EndTour)),
 ];
 
+/// After a question, until what it asks for has been simulated.
+const WAITS: &str = "The verdict comes as soon as that is simulated.";
+
 /// Words to show.
 pub(super) struct Caption {
     title: String,
@@ -141,7 +144,11 @@ fn words(app: &App, tour: &TourState) -> Vec<(String, Role)> {
         return caption();
     };
     match tour.phase {
-        TourPhase::Shows => caption(),
+        TourPhase::Shows => {
+            let mut words = caption();
+            words.push((WAITS.to_owned(), Role::Warn));
+            words
+        }
         TourPhase::Asks => {
             let mut words = vec![(question.ask.clone(), Role::Strong)];
             for (place, answer) in question.answers.iter().enumerate() {
@@ -206,7 +213,8 @@ fn figures(app: &App, tour: &TourState) -> String {
 
 /// Letters of the longest that a beat says.
 fn letters(beat: &Beat) -> usize {
-    let caption = beat.caption.chars().count();
+    let waits = beat.question.as_ref().map_or(0, |_| WAITS.len() + 1);
+    let caption = beat.caption.chars().count() + waits;
     let asked = beat.question.as_ref().map_or(0, |question| {
         let answers = question.answers.iter();
         let answers = answers.map(|answer| answer.chars().count() + 4);

@@ -75,7 +75,8 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
     let mut words = Vec::new();
     if let Some((nodes, done)) = app.run.status.finer {
         let percent = (100.0 * done).floor();
-        words.push((format!("{nodes}² {percent:.0} %"), Role::Warn));
+        let mesh = app.run.setup.scene.kind().mesh(nodes);
+        words.push((format!("{mesh} {percent:.0} %"), Role::Warn));
     }
     words.extend([
         (format!("passage {:.2}", frame.passages), Role::Text),
@@ -89,7 +90,9 @@ fn progress(app: &App, frame: &Frame) -> StatusWords {
         };
         words.push((format!("body {body} stands{means}"), Role::Warn));
     }
-    if let Some(rate) = app.steps_per_s() {
+    // While a finer mesh is on its way, no step is shown.
+    let rate = app.steps_per_s();
+    if let Some(rate) = rate.filter(|_| app.run.status.finer.is_none()) {
         words.push((format!("{} steps/s", sig(rate, 2)), Role::Text));
     }
     words.push((format!("t {}", seconds(frame.time_s)), Role::Text));

@@ -186,7 +186,9 @@ fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
 /// The mesh of what is shown, where the run climbs several: "65² ".
 fn mesh(app: &App) -> String {
     match app.frame() {
-        Some(frame) if app.run.status.climbs => format!("{}² ", frame.nx),
+        Some(frame) if app.run.status.climbs => {
+            format!("{} ", app.run.setup.scene.kind().mesh(frame.nx))
+        }
         Some(_) | None => String::new(),
     }
 }
