@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 
 use super::levelling::{Form, MapLevel, MapOutliers, Pixels};
 use super::preparation::low_pass;
-use crate::math::spectrum::mean_power;
+use crate::math::spectrum::{filter_lines, mean_power};
 
 crate::closed_set! {
     /// What lies beyond a height map.
@@ -61,6 +61,8 @@ pub const SIGNIFICANT: f64 = 0.98;
 const UNEVEN: f64 = 1e-3;
 /// Part of each side of a windowed map that is taken down to zero.
 const TAPER: f64 = 0.1;
+/// Part of the mean square height that single precision does not tell from nothing.
+const CARRIED: f64 = 1e-9;
 /// Half-width, in Rq, of the band about the level that a crossing must leave.
 const DEAD_BAND: f64 = 0.1;
 
@@ -325,6 +327,32 @@ impl HeightMap {
         self.beyond
     }
 
+    /// The map less what a mesh of nodes so many pixels apart along x and y can't carry, and would take for longer waves: of waves
+    /// of two nodes and fewer nothing is left, of three and more all, between them by a cosine. `None`: it has no such waves.
+    pub fn carried_by(&self, spacing: [f64; 2]) -> Option<Self> {
+        let mut shape: Vec<f64> = self.shape.iter().copied().map(f64::from).collect();
+        let whole = shape_square(&shape);
+        let passes = |spacing: f64| {
+            // Waves over the node: a third and a half are three nodes and two.
+            move |frequency: f64| {
+                let waves = (frequency * spacing).clamp(1.0 / 3.0, 0.5);
+                0.5 + 0.5 * (6.0 * PI * (waves - 1.0 / 3.0)).cos()
+            }
+        };
+        let [along, across] = spacing;
+        if along > 1.0 {
+            filter_lines(&mut shape, self.nx, [1, self.nx], passes(along));
+        }
+        if across > 1.0 {
+            filter_lines(&mut shape, self.ny, [self.nx, 1], passes(across));
+        }
+        let left = shape_square(&shape);
+        (left < whole * (1.0 - CARRIED)).then(|| Self {
+            shape: shape.iter().map(|&z| z as f32).collect(),
+            ..self.clone()
+        })
+    }
+
     /// z/A at `x`, `y` in pixels from the middle.
     pub fn sample(&self, x: f64, y: f64) -> f64 {
         let (row, w_y) = Self::stencil(y, self.ny);
@@ -452,6 +480,10 @@ fn taper(at: usize, n: usize) -> f64 {
     } else {
         0.5 - 0.5 * (PI * from_edge / TAPER).cos()
     }
+}
+
+fn shape_square(shape: &[f64]) -> f64 {
+    shape.iter().map(|z| z * z).sum()
 }
 
 fn shape_variance(shape: &[f32]) -> f64 {

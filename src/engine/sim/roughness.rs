@@ -5,8 +5,8 @@
 //! cos(ax + by + φ) = cos(ax + φ) cos(by) − sin(ax + φ) sin(by):  one table per direction
 //! ```
 //! The product of two waves is the sum of two plane waves, so a surface costs four multiplications a
-//! node whatever its lay. A height map is resampled to the grid's rows once; a step then takes four
-//! multiplications a node too. Heights in film units; gap = macroscopic − z1 − z2.
+//! node whatever its lay. A height map is resampled to the grid's rows once, without the waves that the grid would take for
+//! others; a step then takes four multiplications a node too. Heights in film units; gap = macroscopic − z1 − z2.
 
 use std::sync::Arc;
 
@@ -139,6 +139,21 @@ impl Relief {
             }
             Surface::Random(_) | Surface::HeightMap { .. } => {
                 let (map, [side_x_m, side_y_m]) = surface.relief()?;
+                // What is made has no waves below its cut-off, which the mesh carries.
+                let carried = match surface {
+                    Surface::HeightMap { .. } => {
+                        let along = grid.dx * a_m / side_x_m;
+                        // A line's grid has one row.
+                        let across = if grid.ny > 1 {
+                            grid.dy * a_m / side_y_m
+                        } else {
+                            0.0
+                        };
+                        map.carried_by([along, across])
+                    }
+                    Surface::Smooth {} | Surface::Sinusoid { .. } | Surface::Random(_) => None,
+                };
+                let map = carried.map_or_else(|| Arc::clone(map), Arc::new);
                 let start = match surface {
                     Surface::HeightMap { start_x_m, .. } => *start_x_m,
                     Surface::Smooth {} | Surface::Sinusoid { .. } | Surface::Random(_) => None,
@@ -163,7 +178,7 @@ impl GriddedMap {
 
     fn new(
         grid: &Grid,
-        map: &Arc<HeightMap>,
+        map: Arc<HeightMap>,
         [pixel, pixel_y]: [f64; 2],
         start: Option<f64>,
     ) -> Self {
@@ -179,7 +194,7 @@ impl GriddedMap {
             }
         };
         Self {
-            map: Arc::clone(map),
+            map,
             rows,
             pixel,
             start,
@@ -346,6 +361,62 @@ mod tests {
         assert!(differ(&heights[0], &heights[2]) < 1e-6);
     }
 
+    /// A scan with that pixel, in mm.
+    fn measured(map: HeightMap, pixel: f64) -> Surface {
+        Surface::HeightMap {
+            file: String::new(),
+            pixel_m: Some(1e-3 * pixel),
+            edge: crate::scene::MapEdge::Periodic,
+            unit_m: None,
+            level: None,
+            outliers: crate::scene::MapOutliers::Keep,
+            amplitude_m: None,
+            crop_m: None,
+            turn_deg: None,
+            s_filter_m: None,
+            l_filter_m: None,
+            start_x_m: Some(-0.5e-3),
+            digest: None,
+            map: Some(Arc::new(map)),
+        }
+    }
+
+    /// A wave of 1.35 nodes is none that a mesh has: what is left is the one of 20 nodes, wherever the body stands. Sampled at the
+    /// nodes as it is, it would be one of 3.9 nodes that goes the other way.
+    #[test]
+    fn what_a_mesh_cannot_carry_is_no_other_wave() {
+        use std::f64::consts::TAU;
+        let grid = Grid::new(129, -2.0, 1.5, 2.0, Symmetry::General);
+        // Two pixels to a node.
+        let pixel = 0.5 * grid.dx;
+        let n = 400;
+        let wave = |x: f64, length: f64| (TAU * x / length).cos();
+        let at = |i: usize, short: f64| {
+            let x = i as f64 - 0.5 * (n - 1) as f64;
+            wave(x, 40.0) + short * wave(x, 400.0 / 148.0)
+        };
+        let heights = |short: f64| {
+            let heights: Vec<f64> = (0..n * 3).map(|m| 1e-7 * at(m % n, short)).collect();
+            let map = HeightMap::new(n, &heights, MapEdge::Periodic).expect("it has heights");
+            let peak = map.peak_m / 1e-7;
+            let surface = measured(map, pixel);
+            let bodies = [&surface, &Surface::Smooth {}];
+            let mut roughness = Roughness::new(&grid, bodies, 1e-3, Heading::Forward);
+            let travel = BodyTravel {
+                travelled: 0.3 * grid.dx,
+                in_passage: None,
+            };
+            roughness.place(&grid, 0, travel, peak);
+            std::mem::take(&mut roughness.heights[0])
+        };
+        let (long, both) = (heights(0.0), heights(0.5));
+        for m in 0..grid.len() {
+            let exact = wave((grid.x(m % grid.nx) - 0.3 * grid.dx) / pixel, 40.0);
+            assert!((long[m] - exact).abs() < 1e-3, "{} {exact}", long[m]);
+            assert!((both[m] - long[m]).abs() < 1e-5, "{} {}", both[m], long[m]);
+        }
+    }
+
     #[test]
     fn a_map_moves_with_its_body() {
         let grid = Grid::new(33, -2.0, 1.5, 2.0, Symmetry::General);
@@ -357,23 +428,9 @@ mod tests {
             })
             .collect();
         for (beyond, travelled) in [(MapEdge::Periodic, 0.4), (MapEdge::Windowed, 0.9)] {
-            let map = Arc::new(HeightMap::new(n, &heights, beyond).expect("it has heights"));
-            let surface = Surface::HeightMap {
-                file: String::new(),
-                pixel_m: Some(0.05e-3),
-                edge: crate::scene::MapEdge::Periodic,
-                unit_m: None,
-                level: None,
-                outliers: crate::scene::MapOutliers::Keep,
-                amplitude_m: None,
-                crop_m: None,
-                turn_deg: None,
-                s_filter_m: None,
-                l_filter_m: None,
-                start_x_m: Some(-0.5e-3),
-                digest: None,
-                map: Some(Arc::clone(&map)),
-            };
+            let map = HeightMap::new(n, &heights, beyond).expect("it has heights");
+            // Wider than a node: this mesh carries what is there.
+            let surface = measured(HeightMap::clone(&map), 0.2);
             let mut roughness = Roughness::new(
                 &grid,
                 [&Surface::Smooth {}, &surface],
@@ -392,8 +449,8 @@ mod tests {
             roughness.place(&grid, 1, travel, 0.02);
             let mut rough = 0;
             for m in 0..grid.len() {
-                let x = (grid.x(m % 33) - travelled - start) / 0.05;
-                let exact = 0.02 * map.sample(x, grid.y(m / 33) / 0.05);
+                let x = (grid.x(m % 33) - travelled - start) / 0.2;
+                let exact = 0.02 * map.sample(x, grid.y(m / 33) / 0.2);
                 assert!((roughness.heights[1][m] - exact).abs() < 1e-7);
                 rough += usize::from(exact != 0.0);
             }
