@@ -126,8 +126,9 @@ impl Truncation {
     }
 
     /// Order of the discretisation with a mesh of spacing `dx_a`: by the mesh high as long as the rule for second order is
-    /// at most 1, where the mesh carries the film. Thinner films come out far too thick with high order (smooth, U = 0.02
-    /// m/s on 129 nodes, rule 2.3: 28 nm instead of 19), while the errors of second order still cancel.
+    /// at most 1. Thinner films were once seen to come out too thick with high order; they are nearer than with second
+    /// (default scene, smooth: U = 0.02 m/s on 129 nodes, rule 2.3: 26.2 nm and 18.8, 513 nodes find 26.6; 0.1 m/s on 65 nodes,
+    /// rule 2.3: 98.6 and 62.7, 257 nodes find 83.4), so that 1 is too low.
     pub fn order(&self, dx_a: f64) -> Order {
         self.asked.order(self.second_order_mesh_error(dx_a) <= 1.0)
     }

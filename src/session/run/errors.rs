@@ -2,7 +2,7 @@
 //! companion ([`super::companion`]).
 //!
 //! ```text
-//! central film     |h(dx) − h(2dx)|
+//! central film     |h(dx) − h(2dx)|, of rough bodies twice that
 //! life             |ln L(dx) − ln L(2dx)| + min(c (2π/n)²/48, |ln L|/10) + what its mean has not settled to
 //! minimum film     2 |h(dx) − h(2dx)|
 //! maximum p        2 |p(dx) − p(2dx)| + p_h (dx/a)²/8 + (p − p_h) (2π/n)²/8        n nodes of the shortest wave
@@ -13,7 +13,8 @@
 //! convergence index (1994) for two grids: all of the difference at q = 2. The extremes of a field lie at
 //! spikes, constrictions and asperity contacts and were seen to converge with q = 1.3: twice the difference. The
 //! maximum pressure at nodes also misses its crest by up to half a spacing, by the same share on both grids
-//! when they are unlucky: a quadratic crest of Hertz and of the ripple.
+//! when they are unlucky: a quadratic crest of Hertz and of the ripple. The central film of rough bodies is the film of the moment
+//! at one place under passing crests, and no smoother than they.
 //! `tests/engine/discretisation.rs` compares all of it with true errors on ten scenes.
 //!
 //! The same two runs give the limit f + (f(dx) − f(2dx))/(2^q − 1) (Richardson), q = 2, or 3 of [`Order::High`], whose
@@ -108,6 +109,10 @@ const EXTREMES: f64 = 2.0;
 pub(super) fn set_errors(fine: &mut Summary, coarse: &Summary, scene: &Scene, plan: &Plan) {
     let life = |(life, below)| life_error(life, below, scene, plan);
     set_by(fine, coarse, (Crest::of(plan), plan.order), life);
+    // Where crests pass, it is one place of a rippled field.
+    if scene.surfaces().iter().any(|surface| !surface.is_smooth()) {
+        fine.error_h_central_m = fine.error_h_central_m.map(|error| EXTREMES * error);
+    }
 }
 
 fn set_by(

@@ -26,12 +26,17 @@ const GOES_ON: [Hint; 3] = [
     (" T ends ", Some(Action::EndTour)),
 ];
 
+/// Before each of the figures.
+const GAP: &str = "   ";
+
 /// After a question, until what it asks for has been simulated.
 const WAITS: &str = "The verdict comes as soon as that is simulated.";
 
 /// Words to show.
 pub(super) struct Caption {
     title: String,
+    /// The title where the figures leave no room for it.
+    brief: String,
     /// Words with their roles, one after the other.
     words: Vec<(String, Role)>,
     hints: &'static [Hint],
@@ -58,15 +63,11 @@ pub(super) fn of(app: &App) -> Option<Caption> {
             TourPhase::Asks => String::new(),
             TourPhase::Shows | TourPhase::Tells(_) => figures(app, tour),
         };
+        let place = format!("{}/{}", tour.place + 1, app.lesson.all.len());
+        let beat = format!("({}/{})", tour.beat + 1, lesson.beats.len());
         return Some(Caption {
-            title: format!(
-                "{}/{} {} ({}/{})",
-                tour.place + 1,
-                app.lesson.all.len(),
-                lesson.title,
-                tour.beat + 1,
-                lesson.beats.len()
-            ),
+            title: format!("{place} {} {beat}", lesson.title),
+            brief: format!("{place} {beat}"),
             words: words(app, tour),
             hints: match tour.phase {
                 TourPhase::Asks => &ASKS,
@@ -83,6 +84,7 @@ pub(super) fn of(app: &App) -> Option<Caption> {
     };
     Some(Caption {
         title: title.to_owned(),
+        brief: title.to_owned(),
         words: vec![(text.to_owned(), Role::Text)],
         hints: &[],
         figures: String::new(),
@@ -206,7 +208,7 @@ fn figures(app: &App, tour: &TourState) -> String {
     let shown = |claim: &Claim| {
         let value = claim.measure.value(frame, tour.before.as_deref());
         let value = claim.measure.shown(value, app.view.units, frame);
-        format!("   {} {value}", claim.measure.symbol())
+        format!("{GAP}{} {value}", claim.measure.symbol())
     };
     tour.beat().claims.iter().map(shown).collect()
 }
@@ -249,10 +251,22 @@ pub(super) fn render(app: &App, caption: &Caption, area: Rect, buffer: &mut Buff
         .for_each(|row| edge.draw(row.as_position(), buffer));
     let text = area.inner(Margin::new(2, 0));
     let hint = theme.line(hint(caption), Role::Dim);
-    let title = theme.span(&caption.title, Role::Key);
-    let figures = theme.span(&caption.figures, Role::Strong);
     let beside = columns(text, 0, text.width.saturating_sub(hint.width() as u16));
-    put(beside, 0, &Line::from(vec![title, figures]), buffer);
+    let titled = |title: &str, figures: &str| {
+        let figures = theme.span(figures.to_owned(), Role::Strong);
+        Line::from(vec![theme.span(title.to_owned(), Role::Key), figures])
+    };
+    let is_wide = |line: &Line| line.width() > usize::from(beside.width);
+    let mut figures = &caption.figures[..];
+    let mut line = titled(&caption.title, figures);
+    while is_wide(&line) && !figures.is_empty() {
+        line = titled(&caption.brief, figures);
+        // A number that is cut is another number.
+        if is_wide(&line) {
+            figures = figures.rfind(GAP).map_or("", |at| &figures[..at]);
+        }
+    }
+    put(beside, 0, &line, buffer);
     put_right(text, 0, &hint, buffer);
     let words = caption.words.iter().map(|(text, role)| match role {
         Role::Text => Span::raw(theme.words(text)),

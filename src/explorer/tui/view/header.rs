@@ -98,8 +98,8 @@ fn numbers(app: &App, width: u16) -> Line<'static> {
     ];
     if width >= ROOMY {
         let (u1, u2) = speed_ratios(metrics.slide_roll);
-        let specific = [u1, u2].map(|own| sig((u2 - u1).abs() / own.abs(), 2));
-        pairs.insert(1, ("ζ", specific.join(" ")));
+        let [first, second] = [u1, u2].map(|own| sig((u2 - u1).abs() / own.abs(), 2));
+        pairs.splice(1..1, [("ζ₁", first), ("ζ₂", second)]);
     }
     let pairs = pairs.into_iter().flat_map(|(name, value)| {
         let name = theme.span(format!("{name} "), Role::Dim);

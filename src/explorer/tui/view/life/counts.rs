@@ -63,8 +63,11 @@ pub(super) fn other_count(app: &App, rows: &mut RowAllotment, buffer: &mut Buffe
         CycleBasis::Global | CycleBasis::Peaks => "by damage",
     };
     let word = app.view.theme.span(format!("{word} "), Role::Dim);
-    let key = app.view.theme.span("  a", Role::Key);
-    let line = Line::from(vec![word, known(app, other, 2, Role::Text), key]);
+    let mut line = Line::from(vec![word, known(app, other, 2, Role::Text)]);
+    // A lesson keeps its count.
+    if app.lesson.tour.is_none() {
+        line.push_span(app.view.theme.span("  a", Role::Key));
+    }
     put(rows.take(1), 0, &line, buffer);
 }
 
