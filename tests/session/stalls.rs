@@ -8,7 +8,6 @@ use std::sync::Arc;
 
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{ContactKind, Override, Scene, presets};
-use asperity_engine::sim::Summary;
 use asperity_session::run::{End, Ending, Outcome, Request, Session, share_out};
 
 /// A scene, its meshes and passages.

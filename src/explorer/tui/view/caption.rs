@@ -253,8 +253,8 @@ pub(super) fn render(app: &App, caption: &Caption, area: Rect, buffer: &mut Buff
     let hint = theme.line(hint(caption), Role::Dim);
     let beside = columns(text, 0, text.width.saturating_sub(hint.width() as u16));
     let titled = |title: &str, figures: &str| {
-        let figures = theme.span(figures.to_owned(), Role::Strong);
-        Line::from(vec![theme.span(title.to_owned(), Role::Key), figures])
+        let figures = theme.span(figures, Role::Strong);
+        Line::from(vec![theme.span(title, Role::Key), figures])
     };
     let is_wide = |line: &Line| line.width() > usize::from(beside.width);
     let mut figures = &caption.figures[..];
