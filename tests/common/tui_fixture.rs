@@ -343,7 +343,6 @@ fn metrics(frame: &Frame, state: &State) -> Metrics {
             life_relative,
             life_relative_low: 0.8 * life_relative,
             life_relative_high: 1.25 * life_relative,
-            unsettled: 0.0,
             settled: state.settled,
             detail: LifeDetail {
                 body: 1,

@@ -606,10 +606,10 @@ mod tests {
         let table: [(CautionCode, &str, Spoil); 19] = [
             (NotConverged, "3 of 100", |_, g| g.steps_not_converged = 3),
             (BeyondYield, "13 GPa", |_, g| g.p_max_greatest_pa = 13e9),
-            (BeyondYield, "7.5 GPa", |_, g| {
+            (BeyondYield, "7.50 GPa", |_, g| {
                 g.sigma_eff_greatest_pa = Some(7.5e9);
             }),
-            (BeyondYield, "1.3 GPa", |_, g| {
+            (BeyondYield, "1.30 GPa", |_, g| {
                 g.measure = Some(StressMeasure::MaxShear);
                 g.sigma_eff_greatest_pa = Some(1.3e9);
             }),

@@ -76,9 +76,6 @@ pub struct LifeEstimate {
     pub life_relative_low: f64,
     /// Upper end of the band.
     pub life_relative_high: f64,
-    /// By how much of ln L the mean over the phases may still be off: part of the band on every mesh.
-    #[serde(default)]
-    pub unsettled: f64,
     /// Whether no step of a ramp, or of what the ramp left in the film, is in the average, and the average has stopped
     /// moving within its own band.
     pub settled: bool,
@@ -105,6 +102,9 @@ pub struct LifeDetail {
     /// by damage the faster body's, `U_fast/|U_i|`; else 1.
     #[serde(default)]
     pub basis_factor: f64,
+    /// By how much of ln L the mean over the phases may still be off: part of the band on every mesh.
+    #[serde(default)]
+    pub unsettled: f64,
     /// Relative life of body 1 and 2 in own loading cycles (by damage: of the faster body); `None`: the body stands, or is
     /// not counted yet.
     pub life_body: [Option<f64>; 2],

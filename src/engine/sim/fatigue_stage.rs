@@ -304,11 +304,11 @@ impl LifeStage {
             life_relative: f.relative,
             life_relative_low: low,
             life_relative_high: high,
-            unsettled,
             settled: now.has_reference && self.settling.has_settled(),
             detail: LifeDetail {
                 model: Some(self.asked.model),
                 body: body.index() as u8 + 1,
+                unsettled,
                 basis_factor: basis_factor(basis, body, now.slide_roll),
                 life_body: lives.map(|f| f.map(|f| f.relative)),
                 life_system: self.system(lives, now.slide_roll),

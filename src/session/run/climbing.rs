@@ -180,7 +180,7 @@ impl Driver {
                     error = error.max(self.climb.widest);
                     self.climb.widest = error;
                 }
-                error += life.unsettled;
+                error += life.detail.unsettled;
                 life.life_relative_low = life.life_relative * (-error).exp();
                 life.life_relative_high = life.life_relative * error.exp();
             }

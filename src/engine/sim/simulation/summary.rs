@@ -130,7 +130,7 @@ fn with_life(life: Option<&LifeEstimate>, stage: Option<&LifeStage>) -> Summary 
     Summary {
         life_common: life.map(LifeEstimate::life_common),
         survival_ratio: stage.map(LifeStage::survival_ratio),
-        unsettled_ln_life: life.map(|l| l.unsettled),
+        unsettled_ln_life: life.map(|l| l.detail.unsettled),
         life_model: life.and_then(|l| Some(l.detail.model?.name().to_owned())),
         life_count: stage.map(LifeStage::count_text),
         life_basis: stage.map(LifeStage::basis_text),
