@@ -11,7 +11,6 @@
 //! ```
 //! The finer run is not the truth: what it is itself off counts against the band.
 
-use std::fmt::Write as _;
 use std::sync::Arc;
 
 use asperity_engine::plan::Plan;
@@ -53,42 +52,29 @@ impl Way {
 
 impl Case {
     fn name(self) -> String {
-        let mut name = self.preset.to_owned();
-        if let [
-            (_, slide_roll),
-            (_, load),
-            _,
-            (_, speed),
-            (_, first),
-            (_, second),
-        ] = self.knobs()[..]
-        {
-            let [slide_roll, load, speed, first, second] =
-                [slide_roll, load, speed, first, second].map(|times| figure(Some(times)));
-            let _ = write!(
-                name,
-                ": S {slide_roll}, load × {load}, U × {speed}, A × {first}, {second}"
-            );
-        }
-        name
+        let Some(parts) = self.parts() else {
+            return self.preset.to_owned();
+        };
+        let [slide_roll, load, speed, first, second] = parts.map(|part| figure(Some(part)));
+        format!(
+            "{}: S {slide_roll}, load × {load}, U × {speed}, A × {first}, {second}",
+            self.preset
+        )
     }
 
-    /// Its knobs, as parts of the preset's; S itself.
-    fn knobs(self) -> Vec<(Knob, f64)> {
-        if self.draw == 0 {
-            return Vec::new();
-        }
+    /// S, and load, speed and amplitudes as parts of the preset's; `None`: it is the preset.
+    fn parts(self) -> Option<[f64; 5]> {
         let fraction = |power: i32| (0.5 + self.draw as f64 * 1.1347_f64.powi(-power)).fract();
         let between = |power: i32, from: f64, to: f64| from * (to / from).powf(fraction(power));
-        let load = between(2, 0.5, 1.5);
-        vec![
-            (Knob::SlideRoll, 1.6 * fraction(1)),
-            (Knob::ForceN, load),
-            (Knob::ForceNPerM, load),
-            (Knob::EntrainmentMS, between(3, 0.4, 2.5)),
-            (Knob::Amplitude1M, between(4, 0.4, 1.6)),
-            (Knob::Amplitude2M, between(5, 0.4, 1.6)),
-        ]
+        (self.draw > 0).then(|| {
+            [
+                1.6 * fraction(1),
+                between(2, 0.5, 1.5),
+                between(3, 0.4, 2.5),
+                between(4, 0.4, 1.6),
+                between(5, 0.4, 1.6),
+            ]
+        })
     }
 
     fn planned(self, way: Way) -> Result<(Scene, Plan), String> {
@@ -103,15 +89,17 @@ impl Case {
             );
         }
         let mut scene = scene_with(self.preset, &sets)?;
-        for (knob, value) in self.knobs() {
-            let kind = knob.load_of();
-            if kind.is_none_or(|kind| kind == scene.kind()) {
-                let home = if knob == Knob::SlideRoll {
-                    1.0
-                } else {
-                    knob.of(&scene)
-                };
-                knob.put(&mut scene, value * home);
+        if let Some([slide_roll, parts @ ..]) = self.parts() {
+            Knob::SlideRoll.put(&mut scene, slide_roll);
+            let knobs = [
+                Knob::of_load(scene.kind()),
+                Knob::EntrainmentMS,
+                Knob::Amplitude1M,
+                Knob::Amplitude2M,
+            ];
+            for (knob, part) in knobs.into_iter().zip(parts) {
+                let value = part * knob.of(&scene);
+                knob.put(&mut scene, value);
             }
         }
         scene.time.passages = match scene.kind() {

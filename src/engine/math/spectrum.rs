@@ -34,57 +34,9 @@ pub fn mean_power<I: Iterator<Item = f64>>(
     power
 }
 
-/// Multiplies every wave of every line by `factor` of its waves per value. `step`: between the values of a line of `n`, and
-/// between lines.
-pub fn filter_lines(values: &mut [f64], n: usize, step: [usize; 2], factor: impl Fn(f64) -> f64) {
-    if n < 2 {
-        return;
-    }
-    let mut planner = RealFftPlanner::<f64>::new();
-    let (forward, inverse) = (planner.plan_fft_forward(n), planner.plan_fft_inverse(n));
-    let (mut line, mut waves) = (forward.make_input_vec(), forward.make_output_vec());
-    let factors: Vec<f64> = (0..waves.len())
-        .map(|k| factor(k as f64 / n as f64) / n as f64)
-        .collect();
-    for start in (0..values.len() / n).map(|j| j * step[1]) {
-        for (i, to) in line.iter_mut().enumerate() {
-            *to = values[start + i * step[0]];
-        }
-        let done = forward.process(&mut line, &mut waves).and_then(|()| {
-            for (wave, factor) in waves.iter_mut().zip(&factors) {
-                *wave *= *factor;
-            }
-            inverse.process(&mut waves, &mut line)
-        });
-        done.expect("buffer lengths were made for this plan");
-        for (i, from) in line.iter().enumerate() {
-            values[start + i * step[0]] = *from;
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn waves_of_lines_are_taken_off_along_rows_and_columns() {
-        let (nx, ny) = (24, 15);
-        let wave =
-            |k: f64, i: usize, n: usize| (std::f64::consts::TAU * k * i as f64 / n as f64).sin();
-        let short = |k: f64| if k < 0.2 { 1.0 } else { 0.0 };
-        for (n, step, other) in [(nx, [1, nx], ny), (ny, [nx, 1], nx)] {
-            let at = |i: usize, j: usize| i * step[0] + j * step[1];
-            let (mut both, mut long) = (vec![0.0; nx * ny], vec![0.0; nx * ny]);
-            for (i, j) in (0..n).flat_map(|i| (0..other).map(move |j| (i, j))) {
-                long[at(i, j)] = 1.0 + j as f64 * wave(2.0, i, n);
-                both[at(i, j)] = long[at(i, j)] + wave(5.0, i, n);
-            }
-            filter_lines(&mut both, n, step, short);
-            let off = both.iter().zip(&long).map(|(a, b)| (a - b).abs());
-            assert!(off.fold(0.0, f64::max) < 1e-12);
-        }
-    }
 
     #[test]
     fn a_wave_has_one_line_and_parseval_holds() {

@@ -18,8 +18,8 @@
 use std::f64::consts::PI;
 
 use super::levelling::{Form, MapLevel, MapOutliers, Pixels};
-use super::preparation::low_pass;
-use crate::math::spectrum::{filter_lines, mean_power};
+use super::preparation::{carried, low_pass};
+use crate::math::spectrum::mean_power;
 
 crate::closed_set! {
     /// What lies beyond a height map.
@@ -327,28 +327,16 @@ impl HeightMap {
         self.beyond
     }
 
-    /// The map less what a mesh of nodes so many pixels apart along x and y can't carry, and would take for longer waves: of waves
-    /// of two nodes and fewer nothing is left, of three and more all, between them by a cosine. `None`: it has no such waves.
+    /// The map less what a mesh of nodes so many pixels apart along x and y can't carry ([`carried`]); `None`: it has no such waves.
     pub fn carried_by(&self, spacing: [f64; 2]) -> Option<Self> {
-        let mut shape: Vec<f64> = self.shape.iter().copied().map(f64::from).collect();
-        let whole = shape_square(&shape);
-        let passes = |spacing: f64| {
-            // Waves over the node: a third and a half are three nodes and two.
-            move |frequency: f64| {
-                let waves = (frequency * spacing).clamp(1.0 / 3.0, 0.5);
-                0.5 + 0.5 * (6.0 * PI * (waves - 1.0 / 3.0)).cos()
-            }
-        };
-        let [along, across] = spacing;
-        if along > 1.0 {
-            filter_lines(&mut shape, self.nx, [1, self.nx], passes(along));
+        if spacing.iter().all(|&apart| apart <= 1.0) {
+            return None;
         }
-        if across > 1.0 {
-            filter_lines(&mut shape, self.ny, [self.nx, 1], passes(across));
-        }
-        let left = shape_square(&shape);
-        (left < whole * (1.0 - CARRIED)).then(|| Self {
-            shape: shape.iter().map(|&z| z as f32).collect(),
+        let shape: Vec<f64> = self.shape.iter().copied().map(f64::from).collect();
+        let left = carried(self.nx, &shape, spacing);
+        let square = |shape: &[f64]| shape.iter().map(|z| z * z).sum::<f64>();
+        (square(&left) < square(&shape) * (1.0 - CARRIED)).then(|| Self {
+            shape: left.iter().map(|&z| z as f32).collect(),
             ..self.clone()
         })
     }
@@ -480,10 +468,6 @@ fn taper(at: usize, n: usize) -> f64 {
     } else {
         0.5 - 0.5 * (PI * from_edge / TAPER).cos()
     }
-}
-
-fn shape_square(shape: &[f64]) -> f64 {
-    shape.iter().map(|z| z * z).sum()
 }
 
 fn shape_variance(shape: &[f32]) -> f64 {

@@ -5,12 +5,15 @@
 //! turned      z'(q) = z(R(−θ) q), by cubic convolution, on the largest rectangle of the map's own shape; by 90, 180, 270 degrees exactly
 //! low-pass    F(z) = z ∗ s,  s(x) = e^(−π (x/αλ)²)/(αλ) along each side,  α = √(ln 2/π):  transmission 2^(−(λ/w)²) of a wave w
 //! ends        of a map that stands once F(z)/F(1): the weights that lie within
+//! on a mesh   C(z):  all of waves of w ≥ 3 nodes, nothing of w ≤ 2,  ½ + ½ cos 6π(1/w − 1/3) between, along each side
 //! S-filter    z → F(z) with λ_S, before the level;      L-filter    z → z − F(z) with λ_L, after it
 //! ```
 //! Pixels are the unit of lengths. A wave along the diagonal of a map passes the filter by its own length, as along a side: the
 //! weights of both sides multiply to those of a circle. Waves shorter than two pixels there are none.
 //! Source: ISO 16610-61 (areal Gaussian filter), ISO 25178-2 and -3 (S-filter, F-operation, L-filter, in that order); cubic
 //! convolution after Keys (1981). Ours: the rectangle, and the ends by the weights within (ISO 16610-28 has it as an option).
+
+use std::f64::consts::PI;
 
 use realfft::RealFftPlanner;
 
@@ -96,9 +99,9 @@ fn sampled(nx: usize, ny: usize, z: &[f64], [x, y]: [f64; 2]) -> f64 {
 pub fn low_pass(nx: usize, z: &[f64], beyond: MapEdge, cut_off: f64) -> Vec<f64> {
     let ny = z.len() / nx.max(1);
     let mut once = z.to_vec();
-    filter_rows(&mut once, nx, beyond, cut_off);
+    smooth_rows(&mut once, nx, beyond, cut_off);
     let mut across = transposed(&once, nx, ny);
-    filter_rows(&mut across, ny, beyond, cut_off);
+    smooth_rows(&mut across, ny, beyond, cut_off);
     transposed(&across, ny, nx)
 }
 
@@ -108,37 +111,67 @@ fn transposed(z: &[f64], nx: usize, ny: usize) -> Vec<f64> {
     columns.collect()
 }
 
-fn filter_rows(z: &mut [f64], n: usize, beyond: MapEdge, cut_off: f64) {
+/// The Gaussian of one side: of a map that stands once by the weights that lie within.
+fn smooth_rows(z: &mut [f64], n: usize, beyond: MapEdge, cut_off: f64) {
     // Beyond λ the weights are 1e-6 of the greatest and below.
     let padded = match beyond {
         MapEdge::Periodic => n,
         MapEdge::Windowed => n + cut_off.ceil().min(n as f64) as usize + 1,
     };
+    let passes = |waves: f64| 2.0_f64.powf(-(cut_off * waves).powi(2));
+    let mut within = vec![1.0; n];
+    filter_rows(&mut within, n, padded, passes);
+    filter_rows(z, n, padded, passes);
+    for row in z.chunks_mut(n) {
+        for (z, within) in row.iter_mut().zip(&within) {
+            *z /= within;
+        }
+    }
+}
+
+/// Less what nodes so many pixels apart along x and y can't carry, and would take for longer waves: C(z) along each side, of waves
+/// as wide as w nodes.
+pub fn carried(nx: usize, z: &[f64], [along, across]: [f64; 2]) -> Vec<f64> {
+    let passes = |apart: f64| {
+        move |waves: f64| {
+            let of_node = (waves * apart).clamp(1.0 / 3.0, 0.5);
+            0.5 + 0.5 * (6.0 * PI * (of_node - 1.0 / 3.0)).cos()
+        }
+    };
+    let mut z = z.to_vec();
+    if along > 1.0 {
+        filter_rows(&mut z, nx, nx, passes(along));
+    }
+    if across > 1.0 {
+        let ny = z.len() / nx.max(1);
+        let mut columns = transposed(&z, nx, ny);
+        filter_rows(&mut columns, ny, ny, passes(across));
+        z = transposed(&columns, ny, nx);
+    }
+    z
+}
+
+/// Multiplies every wave of rows of `n`, with zeros up to `padded`, by what `passes` of so many waves a pixel.
+fn filter_rows(z: &mut [f64], n: usize, padded: usize, passes: impl Fn(f64) -> f64) {
     let mut planner = RealFftPlanner::new();
     let (forth, back) = (
         planner.plan_fft_forward(padded),
         planner.plan_fft_inverse(padded),
     );
     let (mut line, mut bins) = (forth.make_input_vec(), forth.make_output_vec());
-    let passes = |k: usize| 2.0_f64.powf(-(cut_off * k as f64 / padded as f64).powi(2));
-    let mut filter = |row: &mut [f64]| {
+    let passes: Vec<f64> = (0..bins.len())
+        .map(|k| passes(k as f64 / padded as f64) / padded as f64)
+        .collect();
+    for row in z.chunks_mut(n) {
         line[..n].copy_from_slice(row);
         line[n..].fill(0.0);
         // Lengths are those of the plan: neither can fail.
         let _ = forth.process(&mut line, &mut bins);
-        for (k, bin) in bins.iter_mut().enumerate() {
-            *bin *= passes(k) / padded as f64;
+        for (bin, passes) in bins.iter_mut().zip(&passes) {
+            *bin *= *passes;
         }
         let _ = back.process(&mut bins, &mut line);
         row.copy_from_slice(&line[..n]);
-    };
-    let mut within = vec![1.0; n];
-    filter(&mut within);
-    for row in z.chunks_mut(n) {
-        filter(row);
-        for (z, within) in row.iter_mut().zip(&within) {
-            *z /= within;
-        }
     }
 }
 
@@ -146,7 +179,7 @@ fn filter_rows(z: &mut [f64], n: usize, beyond: MapEdge, cut_off: f64) {
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
-    use std::f64::consts::{LN_2, PI, TAU};
+    use std::f64::consts::{LN_2, TAU};
 
     fn wave(nx: usize, ny: usize, [along, across]: [f64; 2]) -> Vec<f64> {
         let phase = |n: usize| along * (n % nx) as f64 + across * (n / nx) as f64;
@@ -173,6 +206,24 @@ mod tests {
                 let found = low_pass(nx, &z, MapEdge::Periodic, cut_off);
                 for (found, z) in found.iter().zip(&z) {
                     assert!((found - passes * z).abs() < 1e-12, "{waves:?} {cut_off}");
+                }
+            }
+        }
+    }
+
+    /// All of a wave of four nodes, half of one of 2.4 and nothing of two and fewer, along a side by the nodes of that side.
+    #[test]
+    fn a_mesh_carries_waves_of_three_nodes() {
+        let (nx, ny) = (96, 48);
+        for (nodes, left) in [(4.0, 1.0), (2.4, 0.5), (2.0, 0.0), (1.5, 0.0)] {
+            for (waves, apart) in [
+                ([0.25, 0.0], [4.0 / nodes, 1.0]),
+                ([0.0, 0.25], [1.0, 4.0 / nodes]),
+            ] {
+                let z = wave(nx, ny, waves);
+                let found = carried(nx, &z, apart);
+                for (found, z) in found.iter().zip(&z) {
+                    assert!((found - left * z).abs() < 1e-12, "{nodes} {waves:?}");
                 }
             }
         }
