@@ -88,12 +88,11 @@ fn the_order_follows_the_mesh() {
         order(&[&long[..], &["time.step_nodes=4"]].concat()),
         Order::Second
     );
-    // A mesh that does not carry the film.
-    assert_eq!(order(&[by_mesh, "grid.nodes=65"]), Order::Second);
-    assert_eq!(
-        order(&[by_mesh, "motion.entrainment_m_s=0.02"]),
-        Order::Second
-    );
+    // Meshes on which high order errs less, and one on which it errs more: 58 nm where 27 are true, second order 17.
+    let (coarse, slow) = ("grid.nodes=65", "motion.entrainment_m_s=0.02");
+    assert_eq!(order(&[by_mesh, coarse]), Order::High);
+    assert_eq!(order(&[by_mesh, slow]), Order::High);
+    assert_eq!(order(&[by_mesh, coarse, slow]), Order::Second);
     assert_eq!(order(&[by_mesh, "lubricant=none"]), Order::Second);
     assert_eq!(
         order(&["numerics.order=high", "lubricant=none"]),

@@ -25,13 +25,13 @@ const CASES: [Case; 6] = [
         name: "mixed, mirrored",
         preset: "demonstration_quick",
         sets: &["grid.nodes=65", "time.passages=0.5"],
-        golden: [160, 506, 2463, 25_480, 0],
+        golden: [160, 486, 2223, 23_314, 0],
     },
     Case {
         name: "mixed, three periods",
         preset: "demonstration_quick",
         sets: &["grid.nodes=65", "time.passages=1.4"],
-        golden: [218, 623, 3075, 31_792, 0],
+        golden: [218, 603, 2803, 29_382, 0],
     },
     Case {
         name: "mixed, whole grid, mass-conserving",

@@ -205,8 +205,9 @@ fn compare(found: &[Found], scene_at: impl Fn(&Found) -> Scene) {
             found.at.slide_roll, found.at.entrainment_m_s, found.friction
         );
         assert!(low <= swept && swept <= high);
-        // Both are means over whole periods of the same orbit.
-        assert!((swept / life - 1.0).abs() < 0.005);
+        // Both are means over the same orbit, of two passages that begin at other phases: at S = 1 two, three, five and eight
+        // passages of a run of its own have .866, .857, .865 and .864.
+        assert!((swept / life - 1.0).abs() < 0.01);
         assert!((found.friction / friction - 1.0).abs() < 0.005);
     }
 }

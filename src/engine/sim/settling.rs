@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! ramp      a knob walks                          every step begins the wait anew
-//! flush     DEVELOP a/U after it                  what entered meanwhile leaves the contact; then all sums begin
+//! flush     develop() after it                   what entered meanwhile leaves the contact; then all sums begin
 //! average   over a period P                       |ln L now − ln L before| over the last P/2:  ≤ B/2 settled,  > B not
 //!           smooth and steady                     settled as solved
 //!           fields come back                      c · drift ≤ B/2 settled

@@ -22,7 +22,7 @@ mod watching;
 
 use std::sync::Arc;
 
-use super::sim_plan::{DEVELOP, SimPlan};
+use super::sim_plan::SimPlan;
 use super::state::{Phase, State};
 use super::stepping::Attempted;
 use super::work::{Work, thread_pool};
@@ -142,7 +142,7 @@ impl Simulation {
         self.state.targets.aim(knob, value);
         if !matches!(self.state.phase, Phase::Smooth { .. }) {
             self.state.drive.aim(knob, value);
-            self.state.motion.disturb(DEVELOP);
+            self.state.motion.disturb(self.plan.develop());
             forget_passage(&self.plan, &mut self.state);
         }
         Ok(())

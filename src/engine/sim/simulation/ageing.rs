@@ -10,7 +10,7 @@ use crate::plan::TimeDependence;
 use crate::sim::counting::Counting;
 use crate::sim::fatigue_stage::LifeStage;
 use crate::sim::orbit::Orbit;
-use crate::sim::sim_plan::{DEVELOP, SimPlan};
+use crate::sim::sim_plan::SimPlan;
 use crate::sim::state::Phase;
 use crate::sim::summary::AgePoint;
 use crate::sim::work::Work;
@@ -82,7 +82,7 @@ pub(super) fn age(
     if end.moved {
         see_again(plan, state, work);
         state.motion.disturb(match plan.decided.time_dependence {
-            TimeDependence::Steady { .. } => DEVELOP,
+            TimeDependence::Steady { .. } => plan.develop(),
             TimeDependence::Transient => FLUSH,
         });
         forget_passage(plan, state);

@@ -18,7 +18,7 @@ use super::start_up::develops;
 use super::state_check::check;
 use super::watching::see_again;
 use crate::sim::drive::Drive;
-use crate::sim::sim_plan::{DEVELOP, SimPlan};
+use crate::sim::sim_plan::SimPlan;
 use crate::sim::state::Phase;
 use crate::sim::work::Work;
 use crate::sim::{Knob, SimError, State};
@@ -112,7 +112,7 @@ fn missing(work: &Work, body: usize, distance: f64) -> f64 {
 /// Where a cold start would have both surfaces when the passage begins, in a.
 pub(super) fn cold_distances(plan: &SimPlan, targets: &Drive, develops: bool, dt: f64) -> [f64; 2] {
     let smooth = plan.smooth_distance();
-    let steps = (DEVELOP / dt).ceil() as u64;
+    let steps = (plan.develop() / dt).ceil() as u64;
     let mut drive = targets.clone();
     for knob in FREE {
         drive.jump(knob, 0.0);
@@ -170,10 +170,10 @@ impl SettlingSteps {
 
     /// Same of a steady contact, which has no passage in which what long steps have left leaves it: as long as a start-up's
     /// development, and all but the first of it in short steps.
-    pub(super) fn of_steady(walk: f64, dt: f64) -> Self {
+    pub(super) fn of_steady(walk: f64, develop: f64, dt: f64) -> Self {
         Self {
             coarse: (walk / (COARSE * dt)).ceil() as u64,
-            fine: (DEVELOP / dt).ceil() as u64,
+            fine: (develop / dt).ceil() as u64,
             dt,
         }
     }

@@ -76,7 +76,7 @@ pub(super) fn climb(
     });
     let (walk, dt) = (state.drive.walk_left(), plan.usual_dt());
     let settling = match plan.decided.time_dependence {
-        TimeDependence::Steady { .. } => SettlingSteps::of_steady(walk, dt),
+        TimeDependence::Steady { .. } => SettlingSteps::of_steady(walk, plan.develop(), dt),
         TimeDependence::Transient => SettlingSteps::new(walk, dt),
     };
     state.motion.disturb(settling.length());

@@ -3,7 +3,7 @@
 use super::watching::measure_state;
 use crate::sim::heat_stage::HeatStage;
 use crate::sim::measure::Measured;
-use crate::sim::sim_plan::{DEVELOP, SimPlan};
+use crate::sim::sim_plan::SimPlan;
 use crate::sim::state::Phase;
 use crate::sim::work::Work;
 use crate::sim::{Knob, MeshErrors, State};
@@ -66,13 +66,13 @@ pub(super) fn refine_or_develop(plan: &SimPlan, state: &mut State, work: &mut Wo
     }
     let developing = develops(state, work);
     let left = if developing {
-        plan.steps_of(DEVELOP)
+        plan.steps_of(plan.develop())
     } else {
         0
     };
     state.motion.flush();
     if developing {
-        state.motion.disturb(DEVELOP);
+        state.motion.disturb(plan.develop());
     }
     state.phase = Phase::Develop { left };
 }

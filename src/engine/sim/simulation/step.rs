@@ -7,7 +7,7 @@ use super::start_up::refine_or_develop;
 use super::watching::{look_for_orbit, watch};
 use crate::plan::TimeDependence;
 use crate::sim::pace::Stepping;
-use crate::sim::sim_plan::{DEVELOP, SimPlan};
+use crate::sim::sim_plan::SimPlan;
 use crate::sim::state::Phase;
 use crate::sim::stepping::{Attempted, Heated, Mover};
 use crate::sim::work::Work;
@@ -95,7 +95,7 @@ fn count_from_here(plan: &SimPlan, state: &mut State, walked: bool, was_flushed:
         return;
     }
     if walked {
-        state.motion.disturb(DEVELOP);
+        state.motion.disturb(plan.develop());
     } else if !was_flushed && state.motion.is_flushed() {
         forget_passage(plan, state);
         state.totals.restart();
