@@ -56,13 +56,15 @@ fn smooth_films_converge_faster_and_to_the_same_limit() {
 #[test]
 fn the_plan_warns_by_the_order_asked_for() {
     let warnings = |order: &str| {
-        let set = format!("numerics.order={order}").parse().unwrap();
-        let scene = Scene::load_with("demonstration_quick", &[set]).unwrap();
+        let order = format!("numerics.order={order}");
+        let sets = [order.as_str(), "motion.entrainment_m_s=0.1"].map(|set| set.parse().unwrap());
+        let scene = Scene::load_with("demonstration_quick", &sets).unwrap();
         Plan::new(&scene).unwrap().warnings
     };
     let coarse = |warning: &Warning| matches!(warning, Warning::CoarseForTheFilm { .. });
+    // 6 and 3 %, of 5 that are worth a word; found 4.7 and 1.9.
     assert!(warnings("second").iter().any(coarse));
-    assert!(warnings("high").is_empty(), "{:?}", warnings("high"));
+    assert!(!warnings("high").iter().any(coarse));
 }
 
 #[test]

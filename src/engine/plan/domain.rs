@@ -171,7 +171,7 @@ fn edges(film: &Truncation, nodes: usize) -> (f64, f64) {
                 let dx = 64.0 * spacing(size) / (nodes - 1) as f64;
                 (
                     inlet < INLET_ERROR,
-                    inlet + MESH_SHARE * film.second_order_mesh_error(dx),
+                    inlet + MESH_SHARE * film.sizing_rule(dx),
                 )
             });
             with(LAST, spacing(size))
@@ -219,10 +219,7 @@ fn side(film: &Truncation, nodes: usize) -> f64 {
                 let side = film.side_error(size * most);
                 // In lengths of the wedge a spacing along y counts as one along x.
                 let dy = 2.0 * size * most * film.side / (nodes - 1) as f64;
-                (
-                    side <= SIDE_ERROR,
-                    side + MESH_SHARE * film.second_order_mesh_error(dy),
-                )
+                (side <= SIDE_ERROR, side + MESH_SHARE * film.sizing_rule(dy))
             });
             size * most
         })
@@ -230,7 +227,7 @@ fn side(film: &Truncation, nodes: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::truncation::{hertz_gap, inlet_error, mesh_error, side_error};
+    use super::super::truncation::{hertz_gap, inlet_error, side_error, sizing_rule};
     use super::*;
 
     /// The film of a circular contact that deforms.
@@ -279,13 +276,13 @@ mod tests {
             }
         }
         // M = 1000, L = 10 on 256² of [−4.5, 1.5]: 3.6956 against 4.087, 9.6 % low.
-        let mesh = mesh_error(ContactKind::Point, film(1000.0, 4.087), 6.0 / 256.0);
+        let mesh = sizing_rule(ContactKind::Point, film(1000.0, 4.087), 6.0 / 256.0);
         assert!((0.05..0.2).contains(&mesh), "{mesh}");
     }
 
     /// All three errors of a domain with 129 nodes.
     fn total(film: f64, l: f64, (x_min, x_max): (f64, f64), y_half: f64) -> f64 {
-        mesh_error(ContactKind::Point, film, (x_max - x_min) / 128.0)
+        sizing_rule(ContactKind::Point, film, (x_max - x_min) / 128.0)
             + inlet_error(ContactKind::Point, film, l, x_min)
             + side_error(film, l, y_half)
     }

@@ -25,7 +25,8 @@ pub use life::{LifeAsked, LifePlan};
 pub use recording::RecordPlan;
 pub use resolution::{KnobsAt, Resolution};
 pub use surfaces::WavePlan;
-pub use truncation::{Truncation, inlet_error, mesh_error, side_error};
+pub use truncation::{Truncation, inlet_error, side_error, sizing_rule};
+pub(crate) use warning::LOST;
 pub use warning::{LeftOut, PlanError, Warning};
 pub use wear::WearPlan;
 

@@ -6,6 +6,9 @@ use super::Valleys;
 use crate::math::number::{fixed, sig};
 use crate::scene::{ContactKind, Doubt, Scene, unusual};
 
+/// Error by the mesh beyond which what is left of a film says nothing of it: of second order half is gone then.
+pub(crate) const LOST: f64 = 0.4;
+
 /// A stage that is left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LeftOut {
@@ -20,8 +23,8 @@ pub struct LeftOut {
 pub enum Warning {
     /// The mesh is too coarse for the film.
     #[error(
-        "the mesh thins the central film by about {:.0} % ((dX/H_c^(2/3))^2); more grid.nodes help{}",
-        100.0 * error.min(9.99), if *error > 1.0 { ", and here the film may vanish" } else { "" }
+        "the mesh costs the smooth central film about {:.0} %; more grid.nodes help{}",
+        100.0 * error.min(9.99), if *error > LOST { ", and here the film may vanish" } else { "" }
     )]
     CoarseForTheFilm {
         /// Estimated relative error.

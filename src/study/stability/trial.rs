@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::case::{JUMP_AT, Ready};
 use asperity_engine::math::number::fixed;
-use asperity_engine::plan::{TimeDependence, mesh_error};
+use asperity_engine::plan::{TimeDependence, sizing_rule};
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::{Frame, Simulation, Stage, Stats};
 
@@ -315,7 +315,7 @@ fn insane(ready: &Ready, smooth: Option<(f64, f64)>, film_ratio: Option<f64>) ->
     let plan = &ready.plan;
     let film = plan.film.as_ref();
     let length = plan.domain.dx_a() * ready.scene.time.step_nodes.max(1.0);
-    let mesh = film.map(|film| mesh_error(plan.kind, film.central, length));
+    let mesh = film.map(|film| sizing_rule(plan.kind, film.central, length));
     if let Some(ratio) = film_ratio.filter(|_| mesh.is_some_and(|mesh| mesh < MESH_GOOD))
         && !FILM_BAND.contains(&ratio)
     {

@@ -1,7 +1,7 @@
 //! What follows by closed forms from the knobs as they are now: size of the contact, film, λ, regime, mesh error, and the
 //! grounds of cautions.
 
-use crate::plan::FilmPlan;
+use crate::plan::{FilmPlan, LOST};
 use crate::sim::counting::felt_at_points;
 use crate::sim::fatigue_stage::LifeStage;
 use crate::sim::grounds::ReferenceLife;
@@ -76,7 +76,7 @@ pub(super) fn grounds(plan: &SimPlan, state: &State) -> Grounds {
     let measured = state.metrics.errors.map(|errors| errors.h_central);
     let by_rule = film.map(|film| mesh_rule(plan, &film, size));
     // Where the mesh cannot carry the film two grids may agree on anything, as on no film at all.
-    let is_lost = by_rule.is_some_and(|rule| rule > 1.0);
+    let is_lost = by_rule.is_some_and(|rule| rule > LOST);
     let mesh_film = if is_lost {
         by_rule
     } else {
