@@ -386,7 +386,7 @@ fn life_falls_with_amplitude_and_transverse_ridges_cost_more_than_longitudinal_o
 #[test]
 fn a_warm_case_is_what_a_cold_one_is() {
     let text = format!(
-        "{TREND}time.passages = 2.0\n[vary]\nmotion.slide_roll = [0.4, 0.5, 0.25, 0.0]\n[chain]\nlongest = 4\npassages = 2.0\n"
+        "{TREND}time.passages = 6.0\n[vary]\nmotion.slide_roll = [0.4, 0.5, 0.25, 0.0]\n[chain]\nlongest = 4\npassages = 6.0\n"
     );
     let sweep = sweep(&text);
     let rows = whole(&sweep);
@@ -397,7 +397,8 @@ fn a_warm_case_is_what_a_cold_one_is() {
     // They differ by what is left of the neighbour after 2 a, which the film shows, and at S = 0 by nothing
     // less than how the crests stand to each other, if they were not led back to their places. Life is a mean
     // over some 16 phases of stress to the power of 11.5; other phases of the same orbit move it by a per cent.
-    // Both take two passages: the film at one place, under crests, is another by a per cent after another time.
+    // The film at one place, under crests, is an average over a window that both end elsewhere: after two passages a per cent
+    // apart even where both begin cold, after six a third of one.
     for ratio in &against.ratios {
         assert!(
             (ratio[0] - 1.0).abs() < 0.015 && (ratio[1] - 1.0).abs() < 0.005,
