@@ -175,8 +175,8 @@ fn coarse_meshes_are_warned_of() {
         Warning::CoarseForTheFilm { error } => Some(*error),
         _ => None,
     });
-    // 31 nm at 128² against 84: the rule must cry out.
-    assert!(mesh.unwrap() > 0.3, "{mesh:?}");
+    // Smooth: 4.7 % too thin against 257 nodes. (An earlier scheme had 31 nm in place of 84.)
+    assert!((0.047..0.094).contains(&mesh.unwrap()), "{mesh:?}");
     let thick = plan(&["load.force_n=10"]).unwrap();
     assert!(
         thick.domain.x_min_a < -2.5,
