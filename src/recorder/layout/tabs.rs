@@ -122,7 +122,7 @@ fn heat(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
         kymograph::OIL_RISE,
     ];
     for ((_, subject), entity) in shown.rises.iter().zip(entities) {
-        let title = format!("{}, along y = 0 against time", subject.title());
+        let title = format!("{}, y = 0 over time", subject.title());
         all.push(views.plot(&title, &[entity], &shown.kymograph, Margin::Legend));
     }
     let greatest = by_itself().filter(|quantity| quantity.dimension == Dimension::Temperature);
