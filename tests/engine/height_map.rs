@@ -8,7 +8,7 @@ use std::path::Path;
 
 use crate::common::maps::{Shape, csv, npy_f4, npy_f8};
 use asperity_engine::plan::{Plan, Symmetry};
-use asperity_engine::scene::{Override, Scene, Surface};
+use asperity_engine::scene::{OrderAsked, Override, Scene, Surface};
 use asperity_engine::sim::{Frame, Simulation, Stage};
 
 const WAVE_M: f64 = 2e-4;
@@ -246,6 +246,8 @@ fn a_map_of_a_wave_runs_as_the_wave() {
     let mut mapped = Scene::load(&scene_file(folder.path(), &table)).unwrap();
     // The heights are compared, not where each iteration stops.
     mapped.numerics.tolerance = 1e-6;
+    // A bound of high order's correction may flip at a node in one and not in the other: 1.5 nm, which leaves with the oil.
+    mapped.numerics.order = OrderAsked::Second;
     let mut formula = mapped.clone();
     formula.body_2.surface = Surface::Sinusoid {
         amplitude_m: 1.5e-7,
@@ -254,19 +256,13 @@ fn a_map_of_a_wave_runs_as_the_wave() {
         angle_deg: 0.0,
         phase_deg: 0.0,
     };
-    // The correction of high order has bounds: a step may take another side of one, and that spot (1.5 nm) leaves with the oil.
-    let (one, two) = (films(&mapped, 40), films(&formula, 40));
+    let (one, two) = (films(&mapped, 3), films(&formula, 3));
     assert_eq!(one.len(), two.len());
-    let off = one.iter().zip(&two).map(|(one, two)| {
-        let nodes = one.iter().zip(two);
-        nodes
-            .map(|(a, b)| f64::from((a - b).abs()))
-            .fold(0.0, f64::max)
-    });
-    let mut off: Vec<f64> = off.skip(10).collect();
-    off.sort_by(f64::total_cmp);
-    println!("greatest difference of film, m, of 30 steps: {off:?}");
-    let worst = off[off.len() / 2];
+    let mut worst = 0.0_f64;
+    for (a, b) in one.iter().flatten().zip(two.iter().flatten()) {
+        worst = worst.max(f64::from((a - b).abs()));
+    }
+    println!("greatest difference of film {worst:.2e} m");
     // The map's greatest height stands half a pixel off the crest: 3e-4 of the amplitude.
     assert!(worst < 1e-3 * 1.5e-7, "{worst}");
 }

@@ -19,6 +19,7 @@ fn small() -> Scene {
 fn repeating() -> Scene {
     scene(&[
         "grid.nodes=65",
+        "numerics.order=second",
         "stress.depths=8",
         "body_1.surface.amplitude_m=3e-7",
         "body_2.surface.amplitude_m=3e-7",
@@ -205,9 +206,8 @@ fn compare(found: &[Found], scene_at: impl Fn(&Found) -> Scene) {
             found.at.slide_roll, found.at.entrainment_m_s, found.friction
         );
         assert!(low <= swept && swept <= high);
-        // Both are means over the same orbit, of two passages that begin at other phases: at S = 1 two, three, five and eight
-        // passages of a run of its own have .866, .857, .865 and .864.
-        assert!((swept / life - 1.0).abs() < 0.01);
+        // Both are means over whole periods of the same orbit.
+        assert!((swept / life - 1.0).abs() < 0.005);
         assert!((found.friction / friction - 1.0).abs() < 0.005);
     }
 }
