@@ -162,11 +162,14 @@ impl Choice {
         }
     }
 
-    fn turn(self, draft: &mut Draft, by: i32) {
+    /// # Errors
+    ///
+    /// A surface that the rules of scenes refuse; the scene stays as it was.
+    fn turn(self, draft: &mut Draft, by: i32) -> Result<(), SceneError> {
         let scene = &mut draft.scene;
         match self {
             Self::Preset => draft.take_preset(by),
-            Self::Lay(body) => turn_lay(scene, body, by),
+            Self::Lay(body) => return turn_lay(scene, body, by),
             Self::Wavelength(body) => turn_wave(self, draft, body, by),
             Self::Measure => {
                 if let Some(stress) = &mut scene.stress {
@@ -193,6 +196,7 @@ impl Choice {
                 }
             }
         }
+        Ok(())
     }
 }
 
@@ -272,7 +276,7 @@ fn wavelength(surface: &Surface) -> Option<f64> {
     }
 }
 
-fn turn_lay(scene: &mut Scene, body: usize, by: i32) {
+fn turn_lay(scene: &mut Scene, body: usize, by: i32) -> Result<(), SceneError> {
     // A line contact is the same at every y.
     let all: &[Lay] = match scene.kind() {
         ContactKind::Point => &[
@@ -323,15 +327,14 @@ fn turn_lay(scene: &mut Scene, body: usize, by: i32) {
             } else {
                 amplitude_m / SQRT_2
             };
-            if let Ok(made) = with_made_surface(scene, body, rq_m, wave_m) {
-                *scene = made;
-            }
-            return;
+            *scene = with_made_surface(scene, body, rq_m, wave_m)?;
+            return Ok(());
         }
         Lay::Transverse => wave(wave_m, f64::INFINITY),
         Lay::Longitudinal => wave(f64::INFINITY, wave_m),
         Lay::Isotropic => wave(wave_m, wave_m),
     };
+    Ok(())
 }
 
 /// A made surface in place of a body's waves, of their Rq: with the proportions of the preset `random_rollers`, Gaussian with a
@@ -418,6 +421,27 @@ mod tests {
             draft.undo();
             assert!((draft.scene.body_1.surface.rq_m() / before - 1.0).abs() < 1e-12);
         }
+    }
+
+    /// Waves too short for a made surface's keys: the refusal names key, value and range, and nothing has changed.
+    #[test]
+    fn a_made_surface_that_is_refused_says_why() {
+        let mut draft = draft();
+        draft.scene.body_1.surface = Surface::Sinusoid {
+            amplitude_m: 1e-9,
+            wavelength_x_m: 1.5e-7,
+            wavelength_y_m: 1.5e-7,
+            angle_deg: 0.0,
+            phase_deg: 0.0,
+        };
+        draft.row = 1;
+        let before = draft.scene.clone();
+        draft.turn(1);
+        let said = draft.verdict.clone().expect_err("refused");
+        assert!(said.contains("body_1.surface.correlation_x_m"), "{said}");
+        assert_eq!(draft.scene, before);
+        draft.undo();
+        assert_eq!(draft.scene, before);
     }
 
     fn typed(draft: &mut Draft, choice: Choice, text: &str) {

@@ -158,8 +158,10 @@ impl Draft {
             self.keep();
         }
         let choice = self.chosen();
-        choice.turn(self, by);
-        if choice.keys(&self.scene).is_empty() {
+        if let Err(error) = choice.turn(self, by) {
+            self.before.pop();
+            self.verdict = Err(error.to_string());
+        } else if choice.keys(&self.scene).is_empty() {
             self.forget_drawn(choice);
             self.judge();
         }
