@@ -187,7 +187,7 @@ impl AgeCurves {
             x_ticks,
             left_ticks: ticks_at(&ticks(range[0], range[1], 4), height),
             titles: titles
-                .map(|((name, colour), share)| (share, (*name).to_owned(), colour))
+                .map(|((name, colour), share)| (share, (*name).to_owned(), Some(colour)))
                 .collect(),
             ..plot()
         };

@@ -31,7 +31,7 @@ impl CentreLine {
             y: [-height, 0.0],
             x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
             x_title: "x, mm   (grey: Hertz)".into(),
-            titles: vec![(0.1, "p, GPa".into(), ORANGE), (0.9, "h, µm".into(), SKY)],
+            titles: vec![(0.1, "p, GPa".into(), None), (0.9, "h, µm".into(), None)],
             left_colour: Some(ORANGE),
             right_colour: Some(SKY),
             ..PlotBox::default()

@@ -130,7 +130,7 @@ impl Block {
             x_ticks: ticks_at(&ticks(0.0, length, 5), |x| WIDTH * x / length),
             left_ticks: depths.ticks(HEIGHT),
             x_title: "distance along the surface from a crest, µm".into(),
-            titles: vec![(0.13, "depth z, µm".into(), WHITE)],
+            titles: vec![(0.13, "depth z, µm".into(), None)],
             ..plot_box()
         };
         let size = [WIDTH / damage.columns as f64, HEIGHT / depths.len() as f64];

@@ -14,7 +14,6 @@ use rerun::components::{ImageBuffer, ImageFormat};
 use rerun::{AnnotationContext, AnnotationInfo, ChannelDatatype, Rgba32, SegmentationImage};
 
 use super::classes;
-use super::colour::{GREY, WHITE};
 use super::entities::maps::INTERFEROGRAM;
 use super::geometry::Geometry;
 use super::picture::{PixelField, log_styled};
@@ -165,7 +164,7 @@ impl Interferogram {
         } else {
             (
                 "x, mm  (rolling direction →)".into(),
-                Some((0.55, lights, GREY)),
+                Some((0.55, lights, None)),
             )
         };
         PlotBox {
@@ -174,7 +173,7 @@ impl Interferogram {
             x_ticks: ticks_at(&ticks(x[0], x[1], if is_narrow { 2 } else { 4 }), |x| x),
             left_ticks: ticks_at(&ticks(-y[1], -y[0], 4), |y| -y),
             x_title,
-            titles: std::iter::once((0.1, "y, mm".into(), WHITE))
+            titles: std::iter::once((0.1, "y, mm".into(), None))
                 .chain(above)
                 .collect(),
             ..PlotBox::default()
@@ -223,9 +222,9 @@ impl Interferogram {
         let top = f64::from(TOP_M) * 1e6;
         for value in ticks(0.0, top, 5) {
             let y = plot.y[1] - h * value / top;
-            labels.add([left + 0.115 * w, y - HALF_LABEL * h], &plain(value), WHITE);
+            labels.add([left + 0.115 * w, y - HALF_LABEL * h], &plain(value));
         }
-        labels.add([left + 0.05 * w, plot.y[0] - TITLES * h], "h, µm", WHITE);
+        labels.add([left + 0.05 * w, plot.y[0] - TITLES * h], "h, µm");
         labels.log(
             stream,
             &format!("{INTERFEROGRAM}/legend/labels"),

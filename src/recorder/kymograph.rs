@@ -10,7 +10,7 @@ use rerun::components::{ImageBuffer, ImageFormat};
 use rerun::{ChannelDatatype, SegmentationImage};
 
 use super::classes;
-use super::colour::{GREEN, WHITE};
+use super::colour::GREEN;
 use super::geometry::Geometry;
 use super::picture::{Field, PixelField, log_styled};
 use super::plot::{PlotBox, Strips, line, ticks_at};
@@ -83,7 +83,7 @@ impl KymographEntity {
             y: [0.0, height],
             x_ticks: ticks_at(&ticks(x[0], x[1], 5), |x| x),
             x_title: "x, mm".into(),
-            titles: vec![(0.1, "time, ms".into(), WHITE)],
+            titles: vec![(0.1, "time, ms".into(), None)],
             ..PlotBox::default()
         };
         let pixels = PixelField {

@@ -3,7 +3,6 @@
 use rerun::ChannelDatatype;
 use rerun::components::ImageFormat;
 
-use super::colour::{GREY, WHITE};
 use super::picture::{Field, PixelField, log_styled, range, stored, styled};
 use super::plot::{HALF_LABEL, Labels, PlotBox, TITLES};
 use super::stream::{Holds, Stream};
@@ -64,11 +63,11 @@ impl Legend {
         for value in look.divisions() {
             let y = upper + h * (top - value) / span;
             let at = [right + 0.155 * w, y - HALF_LABEL * h];
-            labels.add(at, &look.number(value), WHITE);
+            labels.add(at, &look.number(value));
         }
-        labels.add([right + 0.09 * w, upper - TITLES * h], &look.title(), WHITE);
+        labels.add([right + 0.09 * w, upper - TITLES * h], &look.title());
         if let Some(note) = look.note() {
-            labels.add([right + 0.12 * w, self.plot.y[1] + 0.04 * h], &note, GREY);
+            labels.add([right + 0.12 * w, self.plot.y[1] + 0.04 * h], &note);
         }
         labels.log(stream, &format!("{}/labels", self.entity), Holds::FromNow);
     }

@@ -4,7 +4,6 @@ use rerun::components::ImageFormat;
 use rerun::{AsComponents, ChannelDatatype};
 
 use super::classes;
-use super::colour::WHITE;
 use super::entities::maps::{
     CONTACT, FILM, HERTZ, OIL_RISE, PRESSURE, ROUGHNESS_1, ROUGHNESS_2, SURFACE_1, SURFACE_2,
     TRACTION,
@@ -189,7 +188,7 @@ pub(crate) fn plot_box(g: Geometry) -> PlotBox {
         x_ticks: ticks_at(&ticks(x[0], x[1], if is_narrow { 2 } else { 5 }), |x| x),
         left_ticks: ticks_at(&ticks(-y[1], -y[0], 5), |y| -y),
         x_title: "x, mm  (rolling direction →)".into(),
-        titles: vec![(0.1, "y, mm".into(), WHITE)],
+        titles: vec![(0.1, "y, mm".into(), None)],
         ..PlotBox::default()
     }
 }

@@ -6,7 +6,7 @@
 use rerun::components::LineStrip2D;
 use rerun::{Color, LineStrips2D, Points2D, Radius};
 
-use super::colour::{GREY, WHITE, faded, for_text};
+use super::colour::{GREY, WHITE, faded};
 use super::geometry::Geometry;
 use super::stream::{Holds, Stream};
 use asperity_engine::math::number::{self, MM, plain, sig};
@@ -34,9 +34,11 @@ pub(crate) struct PlotBox {
     pub(crate) right_ticks: Vec<AxisTick>,
     /// Below the horizontal ticks.
     pub(crate) x_title: String,
-    /// Above the frame, each centred at a share of its width.
-    pub(crate) titles: Vec<(f64, String, [u8; 3])>,
+    /// Above the frame, each centred at a share of its width; of a curve with its colour over it.
+    pub(crate) titles: Vec<(f64, String, Option<[u8; 3]>)>,
+    /// Of the curve whose axis the edge is.
     pub(crate) left_colour: Option<[u8; 3]>,
+    /// The same at the right.
     pub(crate) right_colour: Option<[u8; 3]>,
 }
 
@@ -87,7 +89,7 @@ impl PlotBox {
             x_ticks: ticks_at(&number::ticks(x[0], x[1], 5), |x| x),
             left_ticks: ticks(height),
             x_title: "x, mm".into(),
-            titles: vec![(0.13, "depth z, µm".into(), WHITE)],
+            titles: vec![(0.13, "depth z, µm".into(), None)],
             ..Self::default()
         }
     }
@@ -108,62 +110,83 @@ impl PlotBox {
 
     /// The frame, and what is written beside it.
     pub(crate) fn drawn(&self) -> (LineStrips2D, Labels) {
-        let (w, h) = (self.width(), self.height());
-        let [left, right] = self.x;
-        let [top, bottom] = self.y;
-        let mut strips = vec![vec![
-            [left, top],
-            [right, top],
-            [right, bottom],
-            [left, bottom],
-            [left, top],
-        ]];
-        let tick = 0.015 * w.min(h).abs();
-        let below = self.x_ticks.iter();
-        strips.extend(below.map(|(x, _)| vec![[*x, bottom], [*x, bottom + tick]]));
-        let at_left = self.left_ticks.iter();
-        strips.extend(at_left.map(|(y, _)| vec![[left - tick, *y], [left, *y]]));
-        let at_right = self.right_ticks.iter();
-        strips.extend(at_right.map(|(y, _)| vec![[right, *y], [right + tick, *y]]));
-        let lines = LineStrips2D::new(strips.iter().map(|strip| points(strip)))
-            .with_colors([Color::from(GREY)])
-            .with_radii([Radius::new_ui_points(0.75)])
+        let (lines, labels) = (self.lines(), self.texts());
+        let strips = lines.iter().map(|(strip, ..)| points(strip));
+        let colours = lines
+            .iter()
+            .map(|(_, colour, _)| faded(colour.unwrap_or(GREY), u8::MAX));
+        let radii = lines
+            .iter()
+            .map(|(.., radius)| Radius::new_ui_points(*radius));
+        let drawn = LineStrips2D::new(strips)
+            .with_colors(colours)
+            .with_radii(radii)
             .with_draw_order(20.0);
+        (drawn, labels)
+    }
 
+    /// Where its titles stand.
+    fn title_places(&self) -> impl Iterator<Item = [f64; 2]> {
+        let (w, h, left, top) = (self.width(), self.height(), self.x[0], self.y[0]);
+        let aside = 0.1 * (self.beside() - w);
+        let shares = self.titles.iter().map(|(share, ..)| share);
+        shares.map(move |share| [left + share * w - aside, top - TITLES * h])
+    }
+
+    /// Frame and ticks, edges in the colour of what they measure, and the colours of titles over them.
+    fn lines(&self) -> Vec<(Vec<[f64; 2]>, Option<[u8; 3]>, f32)> {
+        const THIN: f32 = 0.75;
+        const THICK: f32 = 1.5;
+        let (w, h) = (self.width(), self.height());
+        let ([left, right], [top, bottom]) = (self.x, self.y);
+        let tick = 0.015 * w.min(h).abs();
+        let radius = |colour: Option<_>| if colour.is_some() { THICK } else { THIN };
+        let edge = |x: f64, colour| (vec![[x, top], [x, bottom]], colour, radius(colour));
+        let mut lines: Vec<_> = [top, bottom]
+            .map(|y| (vec![[left, y], [right, y]], None, THIN))
+            .into();
+        lines.extend([edge(left, self.left_colour), edge(right, self.right_colour)]);
+        let below = self.x_ticks.iter();
+        lines.extend(below.map(|(x, _)| (vec![[*x, bottom], [*x, bottom + tick]], None, THIN)));
+        let at_left = self.left_ticks.iter();
+        lines.extend(at_left.map(|(y, _)| {
+            let strip = vec![[left - tick, *y], [left, *y]];
+            (strip, self.left_colour, THIN)
+        }));
+        let at_right = self.right_ticks.iter();
+        lines.extend(at_right.map(|(y, _)| {
+            let strip = vec![[right, *y], [right + tick, *y]];
+            (strip, self.right_colour, THIN)
+        }));
+        let titles = self.titles.iter().zip(self.title_places());
+        lines.extend(titles.filter_map(|((.., colour), [x, y])| {
+            let half = 0.03 * self.beside();
+            let strip = vec![[x - half, y], [x + half, y]];
+            colour.map(|colour| (strip, Some(colour), THICK))
+        }));
+        lines
+    }
+
+    fn texts(&self) -> Labels {
+        let (w, h) = (self.width(), self.height());
+        let ([left, right], bottom) = (self.x, self.y[1]);
         let beside = self.beside();
-        let left_colour = self.left_colour.unwrap_or(WHITE);
-        let right_colour = self.right_colour.unwrap_or(WHITE);
         let mut labels = Labels::default();
         for (x, text) in &self.x_ticks {
-            labels.add([*x, bottom + 0.02 * h], text, WHITE);
+            labels.add([*x, bottom + 0.02 * h], text);
         }
         for (y, text) in &self.left_ticks {
-            labels.add(
-                [left - 0.07 * beside, y - HALF_LABEL * h],
-                text,
-                left_colour,
-            );
+            labels.add([left - 0.07 * beside, y - HALF_LABEL * h], text);
         }
         for (y, text) in &self.right_ticks {
-            labels.add(
-                [right + 0.07 * beside, y - HALF_LABEL * h],
-                text,
-                right_colour,
-            );
+            labels.add([right + 0.07 * beside, y - HALF_LABEL * h], text);
         }
-        labels.add(
-            [
-                0.5 * (left + right),
-                bottom + if h < 0.65 * w { 0.17 } else { 0.125 } * h,
-            ],
-            &self.x_title,
-            WHITE,
-        );
-        for (share, title, colour) in &self.titles {
-            let aside = 0.1 * (beside - w);
-            labels.add([left + share * w - aside, top - TITLES * h], title, *colour);
+        let under = bottom + if h < 0.65 * w { 0.17 } else { 0.125 } * h;
+        labels.add([0.5 * (left + right), under], &self.x_title);
+        for ((_, title, _), at) in self.titles.iter().zip(self.title_places()) {
+            labels.add(at, title);
         }
-        (lines, labels)
+        labels
     }
 }
 
@@ -183,16 +206,14 @@ pub(crate) enum Margin {
 pub(crate) struct Labels {
     at: Vec<[f32; 2]>,
     texts: Vec<String>,
-    colours: Vec<Color>,
 }
 
 impl Labels {
     /// A text whose upper edge is centred at a place; nothing for an empty text.
-    pub(crate) fn add(&mut self, at: [f64; 2], text: &str, colour: [u8; 3]) {
+    pub(crate) fn add(&mut self, at: [f64; 2], text: &str) {
         if !text.is_empty() {
             self.at.push([at[0] as f32, at[1] as f32]);
             self.texts.push(text.to_owned());
-            self.colours.push(Color::from(for_text(colour)));
         }
     }
 
@@ -205,7 +226,7 @@ impl Labels {
     pub(crate) fn drawn(&self) -> Points2D {
         Points2D::new(self.at.iter().copied())
             .with_radii([Radius::new_scene_units(0.0)])
-            .with_colors(self.colours.iter().copied())
+            .with_colors([Color::from(WHITE)])
             .with_labels(self.texts.iter().map(String::as_str))
             .with_show_labels(true)
             .with_draw_order(30.0)
@@ -264,7 +285,7 @@ impl HertzCurve {
         stream.log_for(Holds::FromNow, entity, &edges(&strips));
         let mut label = Labels::default();
         let at = [0.5 * (plot.x[0] + plot.x[1]), top - TITLES * plot.height()];
-        label.add(at, &format!("a = {} µm", sig(frame.a_m * 1e6, 4)), GREY);
+        label.add(at, &format!("a = {} µm", sig(frame.a_m * 1e6, 4)));
         label.log(stream, &format!("{entity}/label"), Holds::FromNow);
     }
 }

@@ -7,7 +7,7 @@
 use rerun::components::LineStrip2D;
 use rerun::{Color, LineStrips2D, Points2D, Radius};
 
-use super::colour::{GREEN, GREY, WHITE};
+use super::colour::{GREEN, WHITE};
 use super::entities::profile::{MOTION, OIL, POINT, POINT_LINE, PROFILE, STRESS, SURFACES};
 use super::geometry::Geometry;
 use super::picture::{Field, PixelField};
@@ -147,11 +147,11 @@ impl ProfileEntity {
             },
             titles: match self.room {
                 TitleRoom::All => vec![
-                    (-0.05, "z, µm".into(), WHITE),
-                    (0.13, heights, WHITE),
-                    (0.6, below, GREY),
+                    (-0.05, "z, µm".into(), None),
+                    (0.13, heights, None),
+                    (0.6, below, None),
                 ],
-                TitleRoom::Some => vec![(-0.05, "z, µm".into(), WHITE), (0.4, heights, WHITE)],
+                TitleRoom::Some => vec![(-0.05, "z, µm".into(), None), (0.4, heights, None)],
             },
             ..self.plot.clone()
         }
@@ -236,7 +236,7 @@ impl ProfileEntity {
             (2, top + 0.03 * (bottom - top)),
             (1, bottom - 0.11 * (bottom - top)),
         ] {
-            labels.add([x, y], &moves(body, now[body - 1]), WHITE);
+            labels.add([x, y], &moves(body, now[body - 1]));
         }
         labels.log(stream, MOTION, Holds::FromNow);
     }

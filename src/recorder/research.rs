@@ -3,7 +3,7 @@
 use rerun::components::LineStrip2D;
 use rerun::{LineStrips2D, Points2D, Radius};
 
-use super::colour::{GREEN, GREY, ORANGE, PURPLE, SKY, WHITE, faded};
+use super::colour::{GREEN, GREY, ORANGE, PURPLE, SKY, faded};
 use super::entities::research::entity;
 use super::plot::{Labels, PlotBox};
 use super::stream::{Holds, Stream};
@@ -128,7 +128,7 @@ fn axes(plot: &Plot) -> PlotBox {
     let names: Vec<_> = named.collect();
     let share = |k: usize| (k as f64 + 0.5) / names.len() as f64;
     let titles = names.iter().enumerate();
-    let titles = titles.map(|(k, curve)| (share(k), curve.name.clone(), colour(curve.tone)));
+    let titles = titles.map(|(k, curve)| (share(k), curve.name.clone(), Some(colour(curve.tone))));
     let (x, y) = (plot.x.marks().into_iter(), plot.y.marks().into_iter());
     PlotBox {
         x_ticks: x.collect(),
@@ -181,7 +181,7 @@ fn log(stream: &Stream, what: ResearchPlot, plot: &Plot) {
     let mut labels = Labels::default();
     for (mark, [x, y]) in marks {
         let down = if mark.is_below { 0.02 } else { -0.06 };
-        labels.add([x, -HEIGHT * y + down], &mark.label, WHITE);
+        labels.add([x, -HEIGHT * y + down], &mark.label);
     }
     match what {
         ResearchPlot::StressPath | ResearchPlot::SnPoint => {

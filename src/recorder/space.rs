@@ -13,7 +13,7 @@ use rerun::{Arrows3D, Color, Mesh3D, Points3D, Radius};
 use self::damage_sheet::DamageSheet;
 pub(crate) use self::fixed::Tops;
 use self::fixed::{Parts, steel};
-use super::colour::{GREEN, ORANGE, Ramp, SKY, Tints, for_text};
+use super::colour::{GREEN, ORANGE, Ramp, SKY, Tints, WHITE};
 use super::entities::space::{BODIES, FILM, POINT, SLICE, SPEEDS, SPOTS};
 use super::geometry::Geometry;
 use super::stream::{Holds, Stream};
@@ -135,7 +135,7 @@ impl Space {
             places = vec![[x as f32, (-0.03 * self.parts.geometry.a) as f32, z as f32]; 3];
             let stress = Ramp::Magma.colour((point.effective_pa / top) as f32, 1.0);
             // Rim, dot, and what carries the label in a colour that can be read.
-            colours = [GREEN, stress, for_text(GREEN)].map(Color::from).to_vec();
+            colours = [GREEN, stress, WHITE].map(Color::from).to_vec();
             let label = format!("{} GPa", sig(GPA.of(point.effective_pa), 3));
             labels = vec![String::new(), String::new(), label];
         }
@@ -173,7 +173,7 @@ impl Space {
             [middle as f32, y as f32, z as f32]
         }))
         .with_radii([Radius::new_scene_units(0.0)])
-        .with_colors([SKY, ORANGE].map(|colour| Color::from(for_text(colour))))
+        .with_colors([Color::from(WHITE)])
         .with_labels([1, 2].map(|body| format!("U{body} = {} m/s", sig(speeds[body - 1], 3))))
         .with_show_labels(true);
         stream.log_for(Holds::FromNow, &format!("{SPEEDS}/labels"), &labels);

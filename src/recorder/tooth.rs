@@ -171,7 +171,7 @@ impl PathCurve {
         // Within the plot, so that no edge cuts it off.
         let aside = 0.05 * (x[1] - x[0]);
         let at = place_mm.clamp(x[0] + aside, x[1] - aside);
-        label.add([at, f64::from(y)], &sig(value, 3), WHITE);
+        label.add([at, f64::from(y)], &sig(value, 3));
         let entity = format!("{}/now/value", self.entity);
         label.log(stream, &entity, Holds::FromNow);
     }
@@ -196,7 +196,7 @@ fn log_places(stream: &Stream, entity: &str, plot: &PlotBox, line_of_action: &Li
     stream.log_static(format!("{entity}/places"), &lines);
     let mut labels = Labels::default();
     for (x, text) in at.into_iter().zip(["B", "C", "D"]) {
-        labels.add([x, bottom - 0.2 * (bottom - top)], text, GREY);
+        labels.add([x, bottom - 0.2 * (bottom - top)], text);
     }
     labels.log(stream, &format!("{entity}/names"), Holds::Always);
 }
@@ -239,14 +239,10 @@ fn log_line(stream: &Stream, gears: &GearTeeth, line_of_action: &LineOfAction) {
         .into_iter()
         .zip(["A", "B", "C: pitch point", "D", "E"])
     {
-        labels.add([f64::from(x), f64::from(y) + below], text, WHITE);
+        labels.add([f64::from(x), f64::from(y) + below], text);
     }
-    labels.add(
-        [-0.62 * across, 0.86 * high],
-        "pinion (body 1), drives →",
-        SKY,
-    );
-    labels.add([0.66 * across, -0.97 * high], "wheel (body 2) →", WHITE);
+    labels.add([-0.62 * across, 0.86 * high], "pinion (body 1), drives →");
+    labels.add([0.66 * across, -0.97 * high], "wheel (body 2) →");
     labels.log(stream, &format!("{GEARS}/names"), Holds::Always);
     let contact = dot(ORANGE, 7.0).with_draw_order(28.0);
     stream.log_static(CONTACT, &contact);

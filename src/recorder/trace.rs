@@ -34,10 +34,10 @@ impl TraceEntity {
             x_ticks: ticks_at(&ticks(x[0], x[1], 8), |x| x),
             x_title: "where the point is: x, mm".into(),
             titles: vec![
-                (-0.05, "GPa".into(), WHITE),
-                (0.16, "pressure".into(), ORANGE),
-                (0.45, "effective stress".into(), PURPLE),
-                (0.8, "crossing before".into(), GREY),
+                (-0.05, "GPa".into(), None),
+                (0.16, "pressure".into(), Some(ORANGE)),
+                (0.45, "effective stress".into(), Some(PURPLE)),
+                (0.8, "crossing before".into(), Some(GREY)),
             ],
             ..PlotBox::default()
         };
@@ -97,7 +97,7 @@ impl TraceEntity {
         let mut numbers = Labels::default();
         for (number, at) in peaks {
             let [x, y] = self.place(*at).map(f64::from);
-            numbers.add([x, y], &number.to_string(), WHITE);
+            numbers.add([x, y], &number.to_string());
         }
         numbers.log(stream, &format!("{PEAKS}/numbers"), Holds::FromNow);
     }

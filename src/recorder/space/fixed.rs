@@ -249,7 +249,7 @@ impl Parts {
             title: "σ_eff, GPa",
             ramp: Ramp::Magma,
             top_pa,
-            ends: [bottom, bottom + 0.9 * a],
+            ends: [bottom - 0.15 * a, bottom + 0.75 * a],
         });
         std::iter::once(pressure).chain(stress)
     }
@@ -279,11 +279,11 @@ impl Parts {
         let (a, [_, right]) = (self.geometry.a, self.bar_edges());
         for bar in self.colour_bars() {
             let (top, [low, high]) = (GPA.of(bar.top_pa), bar.ends);
-            // Over the numbers too, and clear of the slice's corner.
-            let mut at = vec![[right + 0.05 * a, 0.0, high + 0.27 * a]];
+            // Over the numbers too, and clear of the slice's corner; in the smallest view beside the bar, not upon it.
+            let mut at = vec![[right + 0.1 * a, 0.0, high + 0.4 * a]];
             let mut texts = vec![bar.title.to_owned()];
             for value in [0.0, 0.5 * top, top] {
-                at.push([right + 0.14 * a, 0.0, low + (high - low) * value / top]);
+                at.push([right + 0.28 * a, 0.0, low + (high - low) * value / top]);
                 texts.push(plain(value));
             }
             let labels = labels(at, texts);
@@ -298,7 +298,7 @@ impl Parts {
         let right = 1.0 * g.a;
         let factor = plain(self.exaggeration);
         let at = [
-            [right, 1.2 * g.b, self.levels.body_2 + 0.2 * g.a],
+            [right, 1.2 * g.b, self.levels.body_2 + 0.1 * g.a],
             [0.0, 1.2 * g.b, self.levels.body_2 + 0.48 * g.a],
         ];
         let heights = format!("heights × {factor}; x, y and depth to scale");
