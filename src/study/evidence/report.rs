@@ -75,7 +75,7 @@ pub fn evidence_text(result: &Evidence) -> String {
     let mut text = format!(
         "What others computed and measured, beside what this program finds. Every row is a scene: `asperity run SCENE`, with \
          its words of the last column. Theirs are the sources' own numbers or converted from them \
-         (`assets/studies/evidence.toml`); no constant of the program was chosen to meet one. {:.0} s in all.\n",
+         (`assets/studies/evidence.toml`); no constant of the program was chosen to meet one. {:.0} s since the last start.\n",
         result.seconds
     );
     if !result.rows.is_empty() {
@@ -315,10 +315,10 @@ fn push_left_out(text: &mut String) {
     let _ = writeln!(
         text,
         "\n## Left out\n\n\
-         - Inlet shear heating (Wilson & Sheu): the film here is isothermal. By their factor it would be {rolling:.2}, {half:.2} \
-         and {one:.2} times as thick at S = 0, 0.5 and 1 where L_T = 0.1.\n\
-         - Mass lost by wear (Brandão et al., FZG type C) and the trends with wear of both papers of Morales-Espejel: the \
-         study runs with new surfaces.\n\
+         - Inlet shear heating (Wilson & Sheu), but for the column with warm oil. By their factor the film would be \
+         {rolling:.2}, {half:.2} and {one:.2} times as thick at S = 0, 0.5 and 1 where L_T = 0.1.\n\
+         - Mass lost by wear (Brandão et al., FZG type C). Pits on surfaces that wear are judged apart, by `asperity study \
+         wear`; the column *worn* has the lives of surfaces that have worn.\n\
          - ISO/TS 6336-22: a formula for a film, not a measurement."
     );
 }
