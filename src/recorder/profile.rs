@@ -4,6 +4,7 @@
 //! Bodies are a coarse picture of the stress in them, which is smooth; the oil is drawn as a column for each place, as fine
 //! as the surfaces are. Together a frame takes some 7 kB of the file.
 
+use asperity_engine::physics::cycles::speed_ratios;
 use rerun::components::LineStrip2D;
 use rerun::{Color, LineStrips2D, Points2D, Radius};
 
@@ -222,8 +223,7 @@ impl ProfileEntity {
     /// Which way the bodies go and how fast, where that has changed.
     fn log_motion(&mut self, stream: &Stream, frame: &Frame) {
         let m = &frame.metrics;
-        let (u, s) = (m.entrainment_m_s, m.slide_roll);
-        let now = [u * (1.0 - 0.5 * s), u * (1.0 + 0.5 * s)];
+        let now = speed_ratios(m.slide_roll).map(|ratio| m.entrainment_m_s * ratio);
         if self.shown_m_s == Some(now) {
             return;
         }

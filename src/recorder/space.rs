@@ -8,6 +8,7 @@
 mod damage_sheet;
 pub(crate) mod fixed;
 
+use asperity_engine::physics::cycles::speed_ratios;
 use rerun::{Arrows3D, Color, Mesh3D, Points3D, Radius};
 
 use self::damage_sheet::DamageSheet;
@@ -149,10 +150,7 @@ impl Space {
     /// Arrows as long as the surfaces are fast, logged when a speed has changed.
     fn log_speeds(&mut self, stream: &Stream, m: &Metrics) {
         let u = m.entrainment_m_s;
-        let speeds = [
-            u * (1.0 - 0.5 * m.slide_roll),
-            u * (1.0 + 0.5 * m.slide_roll),
-        ];
+        let speeds = speed_ratios(m.slide_roll).map(|ratio| u * ratio);
         let now = Some([speeds[0], speeds[1], u]);
         if self.speeds == now || u == 0.0 {
             return;

@@ -19,6 +19,11 @@ pub enum Symmetry {
     Line,
 }
 
+/// Nodes per side of the grid with half the spacing over the same domain.
+pub fn refined_nodes(nodes: usize) -> usize {
+    2 * (nodes - 1) + 1
+}
+
 /// Sizes, spacing and symmetry of a grid. The outer boundary always lies on nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {

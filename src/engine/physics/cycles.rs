@@ -93,14 +93,16 @@ impl BodyId {
     }
 }
 
+/// Surface speeds in units of the entrainment speed, `[1 − S/2, 1 + S/2]`: S = (U_2 − U_1)/U.
+pub fn speed_ratios(slide_roll: f64) -> [f64; 2] {
+    [1.0 - 0.5 * slide_roll, 1.0 + 0.5 * slide_roll]
+}
+
 impl Kinematics {
     /// From entrainment speed and slide-to-roll ratio `S = (U_2 − U_1)/U`.
     pub fn from_slide_roll(entrainment: f64, slide_roll: f64, zone: f64) -> Self {
-        Self {
-            u_1: entrainment * (1.0 - 0.5 * slide_roll),
-            u_2: entrainment * (1.0 + 0.5 * slide_roll),
-            zone,
-        }
+        let [u_1, u_2] = speed_ratios(slide_roll).map(|ratio| entrainment * ratio);
+        Self { u_1, u_2, zone }
     }
 
     /// Speed of a body.

@@ -270,11 +270,6 @@ impl Estimate {
     }
 }
 
-/// Surface speeds in units of the entrainment speed, `(1 − S/2, 1 + S/2)`.
-pub fn speed_ratios(slide_roll: f64) -> (f64, f64) {
-    (1.0 - 0.5 * slide_roll, 1.0 + 0.5 * slide_roll)
-}
-
 /// What a load factor of 1 becomes when the Hertz pressure is multiplied by `pressure_ratio`:
 /// `r^−(c + k/e)`.
 pub fn load_factor(

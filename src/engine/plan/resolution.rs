@@ -2,6 +2,7 @@
 //! for the cautions at those of now.
 
 use super::{FilmPlan, Warning, WavePlan};
+use crate::physics::cycles::speed_ratios;
 use crate::scene::{Order, Scene, Surface};
 
 /// Mesh, step and waves.
@@ -132,8 +133,7 @@ impl Resolution {
     }
 }
 
-/// Speed of a body over U, without sign: S = (U2 − U1)/U.
+/// Speed of a body over U, without sign.
 fn speed_ratio(body: u8, slide_roll: f64) -> f64 {
-    let half = 0.5 * slide_roll;
-    (if body == 1 { 1.0 - half } else { 1.0 + half }).abs()
+    speed_ratios(slide_roll)[usize::from(body) - 1].abs()
 }

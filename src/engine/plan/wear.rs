@@ -6,6 +6,7 @@
 //! Of a line that is exact whatever the profile of the pressure, as w' = p_h π a/2 (Archard 1953 with Hertz 1882).
 
 use crate::math::number::{length, sig};
+use crate::physics::cycles::speed_ratios;
 use crate::physics::hertz::Hertz;
 use crate::scene::{Age, Life, Scene};
 
@@ -28,8 +29,7 @@ impl WearPlan {
         let wear = scene.wear?;
         let calibration = scene.life.as_ref().and_then(Life::calibration);
         let slide_roll = scene.motion.slide_roll;
-        // U_i/U: S = (U2 − U1)/U.
-        let speeds = [1.0 - 0.5 * slide_roll, 1.0 + 0.5 * slide_roll];
+        let speeds = speed_ratios(slide_roll);
         let load = std::f64::consts::FRAC_PI_2 * hertz.p_max_pa * hertz.a_m;
         let most = |body: usize| match wear.coefficients_per_pa()[body] {
             0.0 => 0.0,

@@ -1,5 +1,6 @@
 //! What follows from a scene by closed forms: moduli, Hertz contact, speeds, roughness.
 
+use crate::physics::cycles::speed_ratios;
 use std::f64::consts::{PI, SQRT_2};
 use std::sync::Arc;
 
@@ -86,8 +87,7 @@ impl Scene {
 
     /// Speeds of body 1 and 2, U₁ = U(1 − S/2), U₂ = U(1 + S/2), m/s.
     pub fn speeds_m_s(&self) -> [f64; 2] {
-        let (u, s) = (self.motion.entrainment_m_s, self.motion.slide_roll);
-        [u * (1.0 - 0.5 * s), u * (1.0 + 0.5 * s)]
+        speed_ratios(self.motion.slide_roll).map(|ratio| self.motion.entrainment_m_s * ratio)
     }
 
     /// What the film regressions of a line need; `None` for a dry scene or a point contact.

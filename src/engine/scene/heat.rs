@@ -1,5 +1,6 @@
 //! `[heat]`, `[body_1.heat]`, `[body_2.heat]`: what is needed to say how warm surfaces become.
 
+use crate::physics::cycles::speed_ratios;
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
@@ -66,8 +67,7 @@ impl Scene {
             let capacity = heat.density_kg_m3 * heat.heat_capacity_j_kgk;
             (heat.thermal_conductivity_w_mk * capacity).sqrt()
         });
-        let u = self.motion.entrainment_m_s;
-        let speeds = [u * (1.0 - 0.5 * slide_roll), u * (1.0 + 0.5 * slide_roll)];
+        let speeds = speed_ratios(slide_roll).map(|ratio| self.motion.entrainment_m_s * ratio);
         let sliding = (speeds[1] - speeds[0]).abs();
         let heat = friction * std::f64::consts::FRAC_PI_2 * p_hertz_pa * half_width_m * sliding;
         blok_k(heat, half_width_m, effusivities, speeds)

@@ -18,7 +18,7 @@ use super::smooth::LoadAndSpeed;
 use super::stress_stage::StressStage;
 use super::variant::{LifeIntegral, Shared, Variant, models};
 use crate::math::ln_sum::ln_sum;
-use crate::physics::cycles::BodyId;
+use crate::physics::cycles::{BodyId, speed_ratios};
 use crate::physics::fatigue::LifeLaw;
 use crate::plan::Plan;
 use crate::saved::saved;
@@ -328,7 +328,7 @@ impl LifeStage {
 /// From own loading cycles to those in which a life is: `U_fast/|U_i|` by damage, else 1. Of a body that stands, which has
 /// none of its own, 1.
 fn basis_factor(basis: CycleBasis, body: BodyId, slide_roll: f64) -> f64 {
-    let own = [1.0 - 0.5 * slide_roll, 1.0 + 0.5 * slide_roll].map(f64::abs);
+    let own = speed_ratios(slide_roll).map(f64::abs);
     let ratio = match basis {
         CycleBasis::Damage => own[0].max(own[1]) / own[body.index()],
         CycleBasis::Global | CycleBasis::Peaks => 1.0,

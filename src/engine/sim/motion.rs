@@ -1,5 +1,6 @@
 //! Where both bodies are, and what follows from their speeds.
 
+use crate::physics::cycles::speed_ratios;
 use serde::{Deserialize, Serialize};
 
 use crate::math::grid::Grid;
@@ -46,8 +47,9 @@ impl Travel {
     /// Moves both bodies by a step of `nodes` nodes at slide-to-roll ratio `s`.
     pub(super) fn travel(&mut self, grid: &Grid, nodes: f64, s: f64) {
         let dt = nodes * grid.dx;
-        self.travelled[0] += (1.0 - 0.5 * s) * dt;
-        self.travelled[1] += (1.0 + 0.5 * s) * dt;
+        let [one, two] = speed_ratios(s);
+        self.travelled[0] += one * dt;
+        self.travelled[1] += two * dt;
         self.unsettled = (self.unsettled - dt).max(0.0);
         let (lead, over) = &mut self.lead;
         if *over > 0.0 {

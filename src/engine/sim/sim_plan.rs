@@ -5,7 +5,7 @@ use super::Grounds;
 use super::orbit::LONGEST;
 use super::pace::Stepping;
 use super::scaling::Scaling;
-use crate::math::grid::Grid;
+use crate::math::grid::{Grid, refined_nodes};
 use crate::physics::fluid::ShearedFlow;
 use crate::physics::strength::{self, Strength};
 use crate::plan::{Plan, TimeDependence, Warning};
@@ -106,7 +106,7 @@ impl SimPlan {
     /// Nodes per side of the grids that the start-up climbs through.
     pub(super) fn climb(&self) -> impl Iterator<Item = usize> {
         let finest = self.decided.domain.nodes;
-        std::iter::successors(Some(self.first_nodes()), |n| Some(2 * (n - 1) + 1))
+        std::iter::successors(Some(self.first_nodes()), |n| Some(refined_nodes(*n)))
             .take_while(move |n| *n <= finest)
     }
 

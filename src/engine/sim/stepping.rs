@@ -20,6 +20,7 @@ use super::sim_plan::SimPlan;
 use super::worn::Worn;
 use super::yielded::Yielded;
 use super::{StepError, Unsolved};
+use crate::physics::cycles::speed_ratios;
 use crate::scene::Knob;
 use crate::solve::march::{Conditions, ContactState, Flow, Guess, Solver};
 use crate::solve::newton::{NewtonReport, Verdict};
@@ -180,7 +181,7 @@ pub(super) fn times(plan: &SimPlan, drive: &Drive, dx: f64, nodes: f64) -> Times
     let (u_m_s, s) = (value(Knob::EntrainmentMS), value(Knob::SlideRoll));
     Times {
         dt_s: nodes * dx * plan.scaling.a_m / u_m_s,
-        speeds_m_s: [u_m_s * (1.0 - 0.5 * s), u_m_s * (1.0 + 0.5 * s)],
+        speeds_m_s: speed_ratios(s).map(|ratio| u_m_s * ratio),
     }
 }
 

@@ -9,6 +9,7 @@
 //! the shortest is taken: it costs least. A body that hardly moves (S near ±2) passes one crest in a long way; the
 //! window grows to it, to 9/4 of the way asked for at most.
 
+use asperity_engine::physics::cycles::speed_ratios;
 use asperity_engine::plan::Plan;
 
 /// Shortest and longest window, of what is asked for.
@@ -23,8 +24,7 @@ const ABOUT: f64 = 1.1;
 
 /// The way to average over, in a: near `wanted`, where the ripples of both bodies cancel best.
 pub(super) fn window(plan: &Plan, wanted: f64) -> f64 {
-    let s = plan.slide_roll;
-    let speeds = [1.0 - 0.5 * s, 1.0 + 0.5 * s];
+    let speeds = speed_ratios(plan.slide_roll);
     let of = |body: usize| {
         plan.waves[body].map_or(0.0, |wave| {
             wave.crests_per_m * plan.hertz.a_m * speeds[body].abs()

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use super::super::StudyError;
 use super::hertz::LOAD;
 use super::series::{Against, Measured, Part, Series, Varied, timed};
-use asperity_engine::math::grid::{Grid, Symmetry};
+use asperity_engine::math::grid::{Grid, Symmetry, refined_nodes};
 use asperity_engine::physics::fluid::{Density, Viscosity};
 use asperity_engine::solve::march::{Conditions, Flow, Guess, March, Shape};
 use asperity_engine::solve::newton::{Tolerance, Verdict};
@@ -109,7 +109,7 @@ fn solve(nodes: usize, tolerance: f64) -> Result<SmoothFilm, String> {
         if march.solver.grid.nx >= nodes {
             break;
         }
-        let finer = grid(2 * (march.solver.grid.nx - 1) + 1);
+        let finer = grid(refined_nodes(march.solver.grid.nx));
         march = March::refined(&march, finer, &Shape::CIRCLE, 1.0, Flow::Film);
     }
     let unit = (6.0 * PI / lambda).sqrt();

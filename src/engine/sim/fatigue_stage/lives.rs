@@ -1,7 +1,7 @@
 //! Lives of both bodies by each count and integral, and the one that governs.
 
 use super::{LifeStage, Now};
-use crate::physics::cycles::BodyId;
+use crate::physics::cycles::{BodyId, speed_ratios};
 use crate::physics::fatigue::LifeFactors;
 use crate::physics::life_models::CycleProfile;
 use crate::scene::{BodyChoice, CycleBasis, Spread};
@@ -50,7 +50,7 @@ impl LifeStage {
     /// Both bodies together, in time, relative to both bodies of the reference.
     pub(super) fn system(&self, lives: [Option<LifeFactors>; 2], s: f64) -> Option<f64> {
         let [one, two] = lives;
-        let own = [1.0 - 0.5 * s, 1.0 + 0.5 * s].map(f64::abs);
+        let own = speed_ratios(s).map(f64::abs);
         let turns = match self.asked.cycles {
             CycleBasis::Damage => [own[0].max(own[1]); 2],
             CycleBasis::Global | CycleBasis::Peaks => own,

@@ -17,6 +17,7 @@
 use super::start_up::develops;
 use super::state_check::check;
 use super::watching::see_again;
+use crate::physics::cycles::speed_ratios;
 use crate::sim::drive::Drive;
 use crate::sim::sim_plan::SimPlan;
 use crate::sim::state::Phase;
@@ -200,9 +201,9 @@ fn distances(drive: &Drive, mut travelled: [f64; 2], (steps, dt): (u64, f64)) ->
     let mut drive = drive.clone();
     for _ in 0..steps {
         drive.walk(dt);
-        let s = drive.get(Knob::SlideRoll).now;
-        travelled[0] += (1.0 - 0.5 * s) * dt;
-        travelled[1] += (1.0 + 0.5 * s) * dt;
+        let [one, two] = speed_ratios(drive.get(Knob::SlideRoll).now);
+        travelled[0] += one * dt;
+        travelled[1] += two * dt;
     }
     (drive, travelled)
 }

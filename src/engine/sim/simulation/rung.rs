@@ -17,6 +17,8 @@
 use super::follow::{SettlingSteps, cold_distances};
 use super::present::conditions;
 use super::watching::{publish, see_again};
+use crate::math::grid::refined_nodes;
+use crate::physics::cycles::speed_ratios;
 use crate::plan::{Plan, TimeDependence};
 use crate::saved::Saved as _;
 use crate::scene::{Scene, Surface, Warming};
@@ -102,7 +104,7 @@ fn fitting<'a>(
     lower: &'a State,
 ) -> Result<&'a ContactState, SimError> {
     let refuse = |what: &str| Err(SimError::State(what.to_owned()));
-    if 2 * (lower.nodes - 1) + 1 != plan.decided.domain.nodes {
+    if refined_nodes(lower.nodes) != plan.decided.domain.nodes {
         return refuse("its mesh has not half the intervals of this one");
     }
     let Some(reference) = lower
@@ -167,10 +169,9 @@ pub fn head_start(rungs: &[(&Scene, &Plan)]) -> [f64; 2] {
         cold_distances(plan, &drive_of(&plan.scene), develops, plan.usual_dt())
     };
     let (own, goal) = (launch(first), launch(last));
-    let s = last.scene.motion.slide_roll;
     let settling: f64 = (plans.iter().skip(1))
         .map(|plan| SettlingSteps::new(0.0, plan.usual_dt()).length())
         .sum();
-    let shares = [1.0 - 0.5 * s, 1.0 + 0.5 * s];
+    let shares = speed_ratios(last.scene.motion.slide_roll);
     [0, 1].map(|body: usize| goal[body] - own[body] - settling * shares[body])
 }

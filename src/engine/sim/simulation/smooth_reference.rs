@@ -4,6 +4,7 @@ use super::present::{conditions, has_reference_of_now};
 use super::rung::{measure_smooth, smooth_drive};
 use super::start_up::mesh_errors;
 use super::watching::slice_again;
+use crate::math::grid::refined_nodes;
 use crate::sim::motion::Travel;
 use crate::sim::pace::Stepping;
 use crate::sim::sim_plan::SimPlan;
@@ -73,7 +74,7 @@ fn flows_at(plan: &SimPlan, at: LoadAndSpeed) -> bool {
 
 fn refine_smooth(plan: &SimPlan, smooth: &mut Smooth) {
     let grid = |nodes| plan.grid(nodes);
-    let next = 2 * (smooth.nodes - 1) + 1;
+    let next = refined_nodes(smooth.nodes);
     smooth.contact = smooth.contact.refined(&grid(smooth.nodes), &grid(next));
     smooth.nodes = next;
     smooth.left = plan.smooth_steps(next, flows_at(plan, smooth.at));

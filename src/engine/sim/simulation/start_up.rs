@@ -1,6 +1,7 @@
 //! From Hertz to the developed rough contact.
 
 use super::watching::measure_state;
+use crate::math::grid::refined_nodes;
 use crate::sim::heat_stage::HeatStage;
 use crate::sim::measure::Measured;
 use crate::sim::sim_plan::SimPlan;
@@ -34,7 +35,7 @@ pub(super) fn mesh_errors(
 pub(super) fn refine_or_develop(plan: &SimPlan, state: &mut State, work: &mut Work) {
     let nx = work.solver.grid.nx;
     if nx < plan.decided.domain.nodes {
-        let next = 2 * (nx - 1) + 1;
+        let next = refined_nodes(nx);
         state.coarser = Some(measure_state(plan, state, work));
         let grid = plan.grid(next);
         state.contact = state.contact.refined(&work.solver.grid, &grid);

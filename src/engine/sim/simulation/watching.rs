@@ -1,6 +1,7 @@
 //! What is looked at after each step: traction, stress, counts, life, scalars.
 
 use super::present::{has_reference_of_now, publish_lubrication, stress_error_now};
+use crate::physics::cycles::speed_ratios;
 use crate::physics::felt::felt_contacts;
 use crate::plan::TimeDependence;
 use crate::sim::counting::{contacts, felt_at_points};
@@ -146,7 +147,7 @@ pub(super) fn look_for_orbit(
 ) {
     let s = state.drive.get(Knob::SlideRoll).now;
     let mut frequencies = [0.0; 4];
-    for (body, speed) in [1.0 - 0.5 * s, 1.0 + 0.5 * s].into_iter().enumerate() {
+    for (body, speed) in speed_ratios(s).into_iter().enumerate() {
         let amplitude = Knob::AMPLITUDES[body];
         if state.drive.get(amplitude).now != 0.0 {
             for (plane, k) in roughness.wavenumbers(body).into_iter().enumerate() {

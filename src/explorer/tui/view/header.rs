@@ -10,7 +10,7 @@ use crate::tui::theme::Role;
 use crate::tui::units::{sig, sig_or_dash};
 use crate::tui::view::place::{columns, put, put_right, whole_words};
 use crate::tui::wiring::Health;
-use asperity_engine::physics::estimate::speed_ratios;
+use asperity_engine::physics::cycles::speed_ratios;
 use asperity_engine::sim::{LubricationRegime, Stage, named};
 
 pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -97,7 +97,7 @@ fn numbers(app: &App, width: u16) -> Line<'static> {
         ("n", n),
     ];
     if width >= ROOMY {
-        let (u1, u2) = speed_ratios(metrics.slide_roll);
+        let [u1, u2] = speed_ratios(metrics.slide_roll);
         let [first, second] = [u1, u2].map(|own| sig((u2 - u1).abs() / own.abs(), 2));
         pairs.splice(1..1, [("ζ₁", first), ("ζ₂", second)]);
     }

@@ -9,7 +9,7 @@ use crate::tui::choice::Choice;
 use crate::tui::theme::Role;
 use crate::tui::units::sig;
 use crate::tui::view::place::{Entry, columns_from, put, rows_from, table};
-use asperity_engine::physics::estimate::speed_ratios;
+use asperity_engine::physics::cycles::speed_ratios;
 use asperity_engine::scene::ContactKind;
 use asperity_engine::sim::{Quantity, named};
 
@@ -19,7 +19,7 @@ pub(super) fn speeds(app: &App, area: Rect, buffer: &mut Buffer) {
     let Some(frame) = app.frame() else { return };
     let metrics = &frame.metrics;
     let speed = app.view.units.speed();
-    let (u1, u2) = speed_ratios(metrics.slide_roll);
+    let [u1, u2] = speed_ratios(metrics.slide_roll);
     let sliding = (u2 - u1).abs();
     let specific = |own: f64| match sliding / own.abs() {
         ratio if ratio.is_finite() => sig(ratio, 2),
