@@ -22,6 +22,15 @@ pub(crate) const HALF_LABEL: f64 = 0.022;
 /// A tick: where, in units of the view, and its text.
 pub(crate) type AxisTick = (f64, String);
 
+/// A stroke of a frame.
+struct Stroke {
+    strip: Vec<[f64; 2]>,
+    /// `None`: the frame's own.
+    colour: Option<[u8; 3]>,
+    /// Points of the screen.
+    radius: f32,
+}
+
 /// The frame of a plot.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct PlotBox {
@@ -111,13 +120,12 @@ impl PlotBox {
     /// The frame, and what is written beside it.
     pub(crate) fn drawn(&self) -> (LineStrips2D, Labels) {
         let (lines, labels) = (self.lines(), self.texts());
-        let strips = lines.iter().map(|(strip, ..)| points(strip));
-        let colours = lines
-            .iter()
-            .map(|(_, colour, _)| faded(colour.unwrap_or(GREY), u8::MAX));
+        let strips = lines.iter().map(|stroke| points(&stroke.strip));
+        let colours = lines.iter().map(|stroke| stroke.colour.unwrap_or(GREY));
+        let colours = colours.map(|colour| faded(colour, u8::MAX));
         let radii = lines
             .iter()
-            .map(|(.., radius)| Radius::new_ui_points(*radius));
+            .map(|stroke| Radius::new_ui_points(stroke.radius));
         let drawn = LineStrips2D::new(strips)
             .with_colors(colours)
             .with_radii(radii)
@@ -134,35 +142,39 @@ impl PlotBox {
     }
 
     /// Frame and ticks, edges in the colour of what they measure, and the colours of titles over them.
-    fn lines(&self) -> Vec<(Vec<[f64; 2]>, Option<[u8; 3]>, f32)> {
+    fn lines(&self) -> Vec<Stroke> {
         const THIN: f32 = 0.75;
         const THICK: f32 = 1.5;
         let (w, h) = (self.width(), self.height());
         let ([left, right], [top, bottom]) = (self.x, self.y);
         let tick = 0.015 * w.min(h).abs();
-        let radius = |colour: Option<_>| if colour.is_some() { THICK } else { THIN };
-        let edge = |x: f64, colour| (vec![[x, top], [x, bottom]], colour, radius(colour));
+        let stroke = |from: [f64; 2], to: [f64; 2], colour, radius| Stroke {
+            strip: vec![from, to],
+            colour,
+            radius,
+        };
+        let edge = |x: f64, colour: Option<[u8; 3]>| {
+            let radius = if colour.is_some() { THICK } else { THIN };
+            stroke([x, top], [x, bottom], colour, radius)
+        };
         let mut lines: Vec<_> = [top, bottom]
-            .map(|y| (vec![[left, y], [right, y]], None, THIN))
+            .map(|y| stroke([left, y], [right, y], None, THIN))
             .into();
         lines.extend([edge(left, self.left_colour), edge(right, self.right_colour)]);
         let below = self.x_ticks.iter();
-        lines.extend(below.map(|(x, _)| (vec![[*x, bottom], [*x, bottom + tick]], None, THIN)));
+        lines.extend(below.map(|(x, _)| stroke([*x, bottom], [*x, bottom + tick], None, THIN)));
         let at_left = self.left_ticks.iter();
-        lines.extend(at_left.map(|(y, _)| {
-            let strip = vec![[left - tick, *y], [left, *y]];
-            (strip, self.left_colour, THIN)
-        }));
+        lines.extend(
+            at_left.map(|(y, _)| stroke([left - tick, *y], [left, *y], self.left_colour, THIN)),
+        );
         let at_right = self.right_ticks.iter();
-        lines.extend(at_right.map(|(y, _)| {
-            let strip = vec![[right, *y], [right + tick, *y]];
-            (strip, self.right_colour, THIN)
-        }));
+        lines.extend(
+            at_right.map(|(y, _)| stroke([right, *y], [right + tick, *y], self.right_colour, THIN)),
+        );
+        let half = 0.03 * self.beside();
         let titles = self.titles.iter().zip(self.title_places());
         lines.extend(titles.filter_map(|((.., colour), [x, y])| {
-            let half = 0.03 * self.beside();
-            let strip = vec![[x - half, y], [x + half, y]];
-            colour.map(|colour| (strip, Some(colour), THICK))
+            (*colour).map(|colour| stroke([x - half, y], [x + half, y], Some(colour), THICK))
         }));
         lines
     }
