@@ -35,6 +35,8 @@ pub(crate) struct ShownViews {
     pub(crate) playback_speed: Option<f64>,
     pub(crate) knobs: Knobs,
     pub(crate) kind: ContactKind,
+    /// What is between the bodies, with a capital letter: film, or gap where no oil is.
+    between: &'static str,
     pub(crate) map: PlotBox,
     pub(crate) interferogram: PlotBox,
     pub(crate) centre_line: PlotBox,
@@ -66,7 +68,23 @@ pub(crate) struct ShownViews {
     pub(crate) rises: &'static [(&'static str, Subject)],
 }
 
+/// A title's first word where oil is between the bodies.
+const FILM: &str = "Film";
+const GAP: &str = "Gap";
+
 impl ShownViews {
+    /// A title that is said of oil, of what is between the bodies here.
+    pub(crate) fn said(&self, title: &str) -> String {
+        title
+            .replace(FILM, self.between)
+            .replace("film", &self.between.to_lowercase())
+    }
+
+    /// Whether no oil is between the bodies.
+    pub(crate) fn is_dry(&self) -> bool {
+        self.between == GAP
+    }
+
     /// Of a run with that first frame, before any of its other pictures is set up.
     pub(crate) fn new(scene: Option<&Scene>, first: &Frame, scope: &Scope, map: PlotBox) -> Self {
         let life = scene.and_then(|scene| scene.life.as_ref());
@@ -75,6 +93,10 @@ impl ShownViews {
             playback_speed: None,
             knobs: Knobs::of(scene),
             kind: first.kind,
+            between: match scene {
+                Some(scene) if scene.lubricant.is_none() => GAP,
+                _ => FILM,
+            },
             map,
             interferogram: PlotBox::default(),
             centre_line: PlotBox::default(),

@@ -341,9 +341,13 @@ fn one_key_ages_the_surfaces_and_makes_them_new() {
         frame.age = Some(AgePoint {
             cycles,
             life_relative: Some(life.parse().unwrap()),
+            lambda_ratio: Some(4.0 + life.parse::<f64>().unwrap()),
             ..AgePoint::default()
         });
         app.take_frame(frame.into());
+        // Header and status have that of the worn surfaces.
+        let lambda = format!("λ {}", sig(4.0 + life.parse::<f64>().unwrap(), 2));
+        assert_eq!(text(&app, 160, 48).matches(&lambda).count(), 2, "{lambda}");
         assert!(shown(&app, "life over cycles"));
         let now = format!("{life} at {} cycles", sig(cycles, 2));
         assert!(shown(&app, &now), "{now}\n{}", text(&app, 160, 48));

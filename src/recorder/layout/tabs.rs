@@ -50,7 +50,9 @@ pub(crate) fn all(views: &mut Views, shown: &ShownViews) -> Vec<ContainerLike> {
 /// What an audience sees: the contact large, the life in large type, what a point feels, pressure over time.
 fn lecture(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let large = match shown.lecture {
-        Some(camera) => views.lecture_space("Pressure on the film, stress below", camera),
+        Some(camera) => {
+            views.lecture_space(&shown.said("Pressure on the film, stress below"), camera)
+        }
         None => views.map(Subject::Pressure.title(), maps::PRESSURE, &[], &shown.map),
     };
     let mut right = vec![views.document("What is seen", text::LECTURE)];
@@ -125,14 +127,21 @@ fn heat(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
         let title = format!("{}, y = 0 over time", subject.title());
         all.push(views.plot(&title, &[entity], &shown.kymograph, Margin::Legend));
     }
-    let greatest = by_itself().filter(|quantity| quantity.dimension == Dimension::Temperature);
-    for quantity in greatest.filter(|_| !shown.rises.is_empty()) {
-        let label = quantity.label(shown.kind);
-        all.push(views.single(&label, &entity(quantity, shown.kind)));
+    if all.is_empty() {
+        return None;
     }
-    let has_any = !all.is_empty();
-    let grid = Grid::new(all).with_grid_columns(3).with_name("Heat");
-    has_any.then(|| grid.into())
+    let greatest = by_itself().filter(|quantity| quantity.dimension == Dimension::Temperature);
+    let curves = greatest.map(|quantity| {
+        let label = quantity.label(shown.kind);
+        views.single(&label, &entity(quantity, shown.kind))
+    });
+    // Pictures have titles and axes below and need the height that a third row would take.
+    let parts = [
+        Grid::new(all).with_grid_columns(3).into(),
+        Vertical::new(curves).into(),
+    ];
+    let tab = Horizontal::new(parts).with_column_shares([3.0, 1.0]);
+    Some(tab.with_name("Heat").into())
 }
 
 /// What a researcher looks for.
@@ -190,7 +199,12 @@ fn over_time(views: &mut Views, shown: &ShownViews, pressure: bool) -> Container
     } else {
         ("Film along y = 0 against time", kymograph::FILM)
     };
-    views.plot(title, &[entity], &shown.kymograph, Margin::Legend)
+    views.plot(
+        &shown.said(title),
+        &[entity],
+        &shown.kymograph,
+        Margin::Legend,
+    )
 }
 
 fn contact(views: &mut Views, shown: &ShownViews) -> ContainerLike {
@@ -202,9 +216,9 @@ fn contact(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     }
     match shown.kind {
         ContactKind::Point => {
-            let film = Subject::Film.title();
+            let film = shown.said(Subject::Film.title());
             upper.push(views.map(Subject::Pressure.title(), maps::PRESSURE, &[], &shown.map));
-            upper.push(views.map(film, maps::FILM, &[maps::CONTACT], &shown.map));
+            upper.push(views.map(&film, maps::FILM, &[maps::CONTACT], &shown.map));
         }
         ContactKind::Line => {
             upper.push(over_time(views, shown, true));
@@ -218,8 +232,8 @@ fn contact(views: &mut Views, shown: &ShownViews) -> ContainerLike {
         lower.push(stress);
         lower_shares.push(1.0);
     }
-    let centre = "Centre line: pressure and film";
-    lower.push(views.plot(centre, &[CENTRE_LINE], &shown.centre_line, Margin::Ticks));
+    let centre = shown.said("Centre line: pressure and film");
+    lower.push(views.plot(&centre, &[CENTRE_LINE], &shown.centre_line, Margin::Ticks));
     lower_shares.push(1.0);
     let last = if shown.life {
         life_series(views)
@@ -264,10 +278,12 @@ fn life_series(views: &mut Views) -> ContainerLike {
 fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let map = &shown.map;
     let fringes = Subject::Interferogram.title();
-    let mut all = vec![
-        views.map(fringes, INTERFEROGRAM, &[], &shown.interferogram),
-        views.map(Subject::Traction.title(), maps::TRACTION, &[], map),
-    ];
+    // Where no oil is there is no film to be seen by its colours.
+    let mut all: Vec<_> = (!shown.is_dry())
+        .then(|| views.map(fringes, INTERFEROGRAM, &[], &shown.interferogram))
+        .into_iter()
+        .collect();
+    all.push(views.map(Subject::Traction.title(), maps::TRACTION, &[], map));
     for (rough, subject, entity) in [
         (shown.rough[0], Subject::Roughness1, maps::ROUGHNESS_1),
         (shown.rough[1], Subject::Roughness2, maps::ROUGHNESS_2),
@@ -384,7 +400,7 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let kind = shown.kind;
     let mut all = vec![
         pressure_series(views),
-        views.named("Film, µm", &["series/film_um"]),
+        views.named(&shown.said("Film, µm"), &["series/film_um"]),
         views.named("Contact, %", &["series/contact_percent"]),
         views.single("Friction coefficient", "series/friction"),
         views.single("Regime: 0 dry to 3 full film", "series/regime"),

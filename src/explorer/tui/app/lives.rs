@@ -5,9 +5,15 @@ use crate::tui::dial::Dial;
 use crate::tui::kinds::Leading;
 use asperity_engine::physics::estimate::{Anchor, Factors, OperatingPoint};
 use asperity_engine::scene::CycleBasis;
-use asperity_engine::sim::{Caution, LifeEstimate, Stage};
+use asperity_engine::sim::{Caution, Frame, LifeEstimate, Stage};
 
 impl App {
+    /// Of the surfaces of now: as the last block found them where they age.
+    pub fn lambda_ratio(&self, frame: &Frame) -> Option<f64> {
+        let worn = self.lives.ages.last().and_then(|age| age.lambda_ratio);
+        worn.or(frame.metrics.lambda_ratio)
+    }
+
     /// What to know before trusting the frame's numbers, the weightiest first.
     pub fn cautions(&self) -> Vec<Caution> {
         self.frame()

@@ -88,7 +88,7 @@ fn numbers(app: &App, width: u16) -> Line<'static> {
     let lambda = if metrics.regime == LubricationRegime::Dry {
         "dry".to_owned()
     } else {
-        sig_or_dash(metrics.lambda_ratio, 2)
+        sig_or_dash(app.lambda_ratio(frame), 2)
     };
     let mut pairs = vec![
         ("S", format!("{:.2}", metrics.slide_roll)),

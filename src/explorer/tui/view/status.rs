@@ -123,8 +123,8 @@ fn quality(app: &App, frame: &Frame) -> StatusWords {
         Some(trouble) => (not_converged(app, trouble), Role::Bad),
     };
     let (regime, role) = regime(metrics);
-    let lambda = metrics
-        .lambda_ratio
+    let lambda = app
+        .lambda_ratio(frame)
         .map_or_else(String::new, |lambda| format!(" λ {}", sig(lambda, 2)));
     let shown = |word: &str, quantity: &Quantity, digits: i32, role: Role| {
         let value = app.view.units.show(quantity, frame, digits);
