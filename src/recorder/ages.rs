@@ -29,7 +29,12 @@ pub(crate) struct AgeCurves {
 impl AgeCurves {
     /// Whether it is what damage and wear come to.
     pub(crate) fn is_of_the_race(&self) -> bool {
-        [PITS, LIFE].contains(&self.entity)
+        self.is_life() || self.entity == PITS
+    }
+
+    /// Whether it is the life.
+    pub(crate) fn is_life(&self) -> bool {
+        self.entity == LIFE
     }
 }
 

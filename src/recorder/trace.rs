@@ -34,7 +34,7 @@ impl TraceEntity {
             x_ticks: ticks_at(&ticks(x[0], x[1], 8), |x| x),
             x_title: "where the point is: x, mm".into(),
             titles: vec![
-                (-0.05, "GPa".into(), None),
+                (0.0, "GPa".into(), None),
                 (0.16, "pressure".into(), Some(ORANGE)),
                 (0.45, "effective stress".into(), Some(PURPLE)),
                 (0.8, "crossing before".into(), Some(GREY)),

@@ -126,7 +126,7 @@ impl Layout<'_> {
         let rows = [upper, lower].into_iter().filter(|row| !row.is_empty());
         let all = Vertical::new(rows.map(|row| Horizontal::new(row).into()));
         let shares = if has_profile {
-            vec![3.0, 1.0]
+            vec![2.6, 1.0]
         } else {
             vec![1.0]
         };

@@ -236,7 +236,7 @@ fn contact(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     lower.push(views.plot(&centre, &[CENTRE_LINE], &shown.centre_line, Margin::Ticks));
     lower_shares.push(1.0);
     let last = if shown.life {
-        life_series(views)
+        life_series(views, shown)
     } else {
         pressure_series(views)
     };
@@ -271,8 +271,12 @@ pub(crate) fn stress(views: &mut Views, shown: &ShownViews, name: &str) -> Optio
     Some(views.plot(&title, &contents, shown.slice.as_ref()?, Margin::Legend))
 }
 
-fn life_series(views: &mut Views) -> ContainerLike {
-    views.named("Life, log10", &[LIFE])
+/// The life over time; of surfaces that age over the cycles: each block begins its averages anew.
+fn life_series(views: &mut Views, shown: &ShownViews) -> ContainerLike {
+    match shown.ages.iter().find(|curves| curves.is_life()) {
+        Some(aged) => views.plot(aged.title, &[aged.entity], &ages::plot(), Margin::Plain),
+        None => views.named("Life, log10", &[LIFE]),
+    }
 }
 
 fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
@@ -351,7 +355,7 @@ fn point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
 
 fn life(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     let left = Vertical::new([
-        life_series(views),
+        life_series(views, shown),
         views.named("log10", &["life/log10_factors", "life/log10_factors/load"]),
     ]);
     let contacts = |views: &mut Views, body: usize| {
