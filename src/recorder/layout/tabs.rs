@@ -118,13 +118,14 @@ fn heat(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
     for (entity, subject) in maps {
         all.push(views.map(subject.title(), entity, &[], &shown.map));
     }
-    let entities = [
-        kymograph::SURFACE_1,
-        kymograph::SURFACE_2,
-        kymograph::OIL_RISE,
+    // Short: at 1280 pixels a title has 200.
+    let along = [
+        ("Body 1", kymograph::SURFACE_1),
+        ("Body 2", kymograph::SURFACE_2),
+        ("Film", kymograph::OIL_RISE),
     ];
-    for ((_, subject), entity) in shown.rises.iter().zip(entities) {
-        let title = format!("{}, y = 0 over time", subject.title());
+    for (_, (what, entity)) in shown.rises.iter().zip(along) {
+        let title = format!("{what}, y = 0 over time");
         all.push(views.plot(&title, &[entity], &shown.kymograph, Margin::Legend));
     }
     if all.is_empty() {
@@ -302,7 +303,9 @@ fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
     if all.len() % 4 == 3 {
         all.push(views.document("Now", text::NOW));
     }
-    Grid::new(all).with_grid_columns(4).with_name("Maps").into()
+    let columns = if all.len() > 6 { 4 } else { 3 };
+    let grid = Grid::new(all).with_grid_columns(columns);
+    grid.with_name("Maps").into()
 }
 
 fn shear(views: &mut Views, shown: &ShownViews) -> Option<ContainerLike> {
