@@ -121,9 +121,12 @@ impl PlotBox {
     pub(crate) fn drawn(&self) -> (LineStrips2D, Labels) {
         let (lines, labels) = (self.lines(), self.texts());
         let strips = lines.iter().map(|stroke| points(&stroke.strip));
-        let colours = lines.iter().map(|stroke| stroke.colour.unwrap_or(GREY));
+        // Where no curve has its colour here, one look for all, which weighs less.
+        let is_plain = lines.iter().all(|stroke| stroke.colour.is_none());
+        let looks = if is_plain { &lines[..1] } else { &lines[..] };
+        let colours = looks.iter().map(|stroke| stroke.colour.unwrap_or(GREY));
         let colours = colours.map(|colour| faded(colour, u8::MAX));
-        let radii = lines
+        let radii = looks
             .iter()
             .map(|stroke| Radius::new_ui_points(stroke.radius));
         let drawn = LineStrips2D::new(strips)
