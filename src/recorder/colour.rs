@@ -16,8 +16,8 @@ pub(crate) const WHITE: [u8; 3] = [255, 255, 255];
 pub(crate) const GREY: [u8; 3] = [150, 155, 165];
 
 /// Background of spatial views, nearly black. A viewer puts a plate under each label, halfway between what is behind and a
-/// grey of its theme (230 of 255 in a light one, 18 in a dark one), and a label has one colour whatever the theme: white on
-/// black is the darkest that a light theme's plates become, and the only pair that can be read in both.
+/// grey of its theme (230 of 255 in a light one, 18 in a dark one), and a label has one colour whatever the theme. On this
+/// ground white can be read in both; black could be on a nearly white one, which would glare in a dark theme.
 pub(crate) const BACKGROUND: [u8; 3] = [5, 6, 8];
 
 /// Colours of curves in plots, whose background is the viewer's own: dark or light by its theme. All of them stand out
