@@ -271,7 +271,7 @@ pub fn wear(
     let pairs = match extent {
         Extent::Quick => 2,
         Extent::Usual => 4,
-        Extent::Full => 8,
+        Extent::Full => 24,
     };
     let made = &set.made;
     let mut asked = Vec::new();

@@ -354,6 +354,14 @@ fn one_key_ages_the_surfaces_and_makes_them_new() {
     }
     app.apply(Action::Curve);
     assert!(shown(&app, "Rq over cycles"));
+    let faster = staged(&app.apply(Action::ReplayFaster(1)));
+    assert!((faster.age.unwrap().tolerance - 0.1).abs() < 1e-9);
+    app.rebuilt(setup_of(faster));
+    // A jump errs by a tenth at most.
+    assert!(app.apply(Action::ReplayFaster(1)).is_empty());
+    assert!(shown(&app, "age.tolerance"), "{}", text(&app, 160, 48));
+    let slower = staged(&app.apply(Action::ReplayFaster(-2)));
+    assert!((slower.age.unwrap().tolerance - 0.004).abs() < 1e-9);
     let scene = staged(&app.apply(Action::Age));
     assert!(scene.wear.is_none() && scene.age.is_none());
     app.rebuilt(setup_of(scene));

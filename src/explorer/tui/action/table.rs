@@ -51,7 +51,7 @@ pub const KEYS: &[Row] = rows! {
         "space", "pause, go on": ch(' ') => TogglePause;
         ". ,", "one step; one frame back": ch('.') => StepForward, ch(',') => StepBack;
         "o", "replay one period; live again": ch('o') => Replay;
-        "- +", "replay slower, faster": ch('-') => ReplayFaster(-1), ch('+') => ReplayFaster(1);
+        "- +", "replay, age: slower, faster": ch('-') => ReplayFaster(-1), ch('+') => ReplayFaster(1);
         "t T", "lessons; end the lesson": ch('t') => Lessons, ch('T') => EndTour;
         "n N", "lesson: go on; go back": ch('n') => NextBeat, ch('N') => PreviousBeat;
     }

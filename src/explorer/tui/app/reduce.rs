@@ -58,6 +58,7 @@ impl App {
             Action::OtherCount => self.other_count(),
             Action::Age => self.age(),
             Action::Replay => self.toggle_replay(),
+            Action::ReplayFaster(times) => self.replay_faster(times),
             Action::PointBody => self.other_body(),
             Action::PointDepth(by) => self.point_depth(by),
             Action::MovePoint(quarters) => self.move_point(quarters),
@@ -86,7 +87,6 @@ impl App {
             Action::Probe(x, y) => self.view.probe = Some((x, y)),
             Action::Pin => self.pin(),
             Action::PointQuantity => self.view.point_quantity = self.view.point_quantity.next(),
-            Action::ReplayFaster(times) => self.replay_faster(times),
             Action::Units => self.view.units = self.view.units.next(),
             Action::Contrast => self.view.theme.next_contrast(),
             Action::Help => self.toggle(Overlay::Help),
@@ -124,6 +124,7 @@ impl App {
             | Action::OtherCount
             | Action::Age
             | Action::Replay
+            | Action::ReplayFaster(_)
             | Action::Record
             | Action::View
             | Action::Save

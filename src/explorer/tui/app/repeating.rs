@@ -144,11 +144,12 @@ impl App {
         effects
     }
 
-    pub(super) fn replay_faster(&mut self, times: i32) {
-        match &mut self.replay.playing {
-            Some(replay) => replay.faster(times),
-            None => self.say("a live run has no speed to choose; o replays a passage that repeats"),
-        }
+    pub(super) fn replay_faster(&mut self, times: i32) -> Vec<Effect> {
+        let Some(replay) = &mut self.replay.playing else {
+            return self.age_faster(times);
+        };
+        replay.faster(times);
+        Vec::new()
     }
 
     /// Pause and single frames of a replay; false: there is none.

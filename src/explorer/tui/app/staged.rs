@@ -18,6 +18,8 @@ use asperity_engine::sim::Stage;
 const MILD_PER_PA: f64 = 1e-18;
 /// Loading cycles that surfaces age over.
 const CYCLES: f64 = 1e7;
+/// What one press makes of the tolerance of a jump: about 2.2 times as many jumps, or as few.
+const FASTER: f64 = 5.0;
 
 impl App {
     /// The screen of a new run, which keeps how things are shown, the tour and the pinned life where it can
@@ -170,6 +172,28 @@ impl App {
         if !begins.is_empty() {
             self.view.curve = curve;
             self.say(words);
+        }
+        begins
+    }
+
+    /// The surfaces age from new again, by fewer and longer jumps, or by more.
+    pub(super) fn age_faster(&mut self, times: i32) -> Vec<Effect> {
+        let mut scene = self.scene_now();
+        let Some(age) = &mut scene.age else {
+            self.say("a live run has no speed to choose; o replays a passage that repeats");
+            return Vec::new();
+        };
+        age.tolerance *= FASTER.powi(times);
+        let percent = 100.0 * age.tolerance;
+        if let Err(error) = scene.validate() {
+            self.say(error.to_string());
+            return Vec::new();
+        }
+        let begins = self.begin_again(scene);
+        if !begins.is_empty() {
+            self.say(format!(
+                "from new again: a jump in cycles may err by {percent:.1} % of the roughness"
+            ));
         }
         begins
     }
