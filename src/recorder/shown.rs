@@ -34,6 +34,8 @@ pub(crate) struct ShownViews {
     /// Simulated time over the time in which it is played; `None` where nothing moves.
     pub(crate) playback_speed: Option<f64>,
     pub(crate) knobs: Knobs,
+    /// Whether the run begins at S = 0.
+    rolls: bool,
     pub(crate) kind: ContactKind,
     /// What is between the bodies, with a capital letter: film, or gap where no oil is.
     between: &'static str,
@@ -85,6 +87,11 @@ impl ShownViews {
         self.between == GAP
     }
 
+    /// Whether the bodies slide over each other, now or later: else nothing is sheared.
+    pub(crate) fn slides(&self) -> bool {
+        !self.rolls || self.knobs == Knobs::Turn
+    }
+
     /// Of a run with that first frame, before any of its other pictures is set up.
     pub(crate) fn new(scene: Option<&Scene>, first: &Frame, scope: &Scope, map: PlotBox) -> Self {
         let life = scene.and_then(|scene| scene.life.as_ref());
@@ -92,6 +99,7 @@ impl ShownViews {
             live: false,
             playback_speed: None,
             knobs: Knobs::of(scene),
+            rolls: scene.is_some_and(|scene| scene.motion.slide_roll == 0.0),
             kind: first.kind,
             between: match scene {
                 Some(scene) if scene.lubricant.is_none() => GAP,

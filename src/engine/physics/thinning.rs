@@ -244,11 +244,12 @@ fn psi_above(goal: f64) -> f64 {
     (goal + goal * goal).sqrt()
 }
 
-/// The ψ of which ψ tanh ψ is `goal`, to a twentieth.
+/// The ψ of which ψ tanh ψ is `goal`, to 0.3 %: of faint films ψ² = goal + goal²/3, of hot ones ψ = goal.
 #[inline(always)]
 fn psi_about(goal: f64) -> f64 {
-    let share = 1.0 / 3.0 + 2.0 / 3.0 * goal / (goal + 2.0);
-    (goal + share * goal * goal).sqrt()
+    let over = 1.0 / 3.0 + goal * (0.1123 + 0.174 * goal);
+    let under = 1.0 + goal * (0.2486 + 0.174 * goal);
+    (goal + over / under * goal * goal).sqrt()
 }
 
 /// A film of some ψ.

@@ -1,7 +1,8 @@
 //! Heat of each step, how warm it makes surfaces and oil, and how much thinner that makes the oil.
 //!
 //! ```text
-//! begin     what the heat of all steps before does at the end of this one; the oil as thin as it was
+//! begin     what the heat of all steps before does at the end of this one, and as much as then the heat of a step; the oil as thin
+//!           as it was
 //! find      stress of every node from its walls' temperature, heat from that, walls from the heat, until both agree
 //! again     the step is solved with the oil as thin as it now is, as long as its film error says so (`stepping.rs`)
 //! commit    with the step
@@ -61,7 +62,7 @@ struct Film {
     made: Vec<f64>,
     /// Q_p, the part of it that the pressure's flow makes, W/m².
     flowing: Vec<f64>,
-    /// Mean rise of both walls, K.
+    /// Mean rise of both walls, K; as it is remembered, by the heat of the step alone.
     walls_k: Vec<f64>,
     /// Rise in the middle of the film over the walls, K.
     middle_k: Vec<f64>,
@@ -199,6 +200,10 @@ impl HeatStage {
         self.now.copy(&warmth.film);
         self.heat
             .begin(&mut warmth.state, times.dt_s, times.speeds_m_s);
+        let [one, two] = self.heat.before();
+        for (walls, (one, two)) in self.now.walls_k.iter_mut().zip(one.iter().zip(two)) {
+            *walls += 0.5 * (one + two);
+        }
     }
 
     /// Heat and temperatures of the step that has begun, as it has been solved last.
@@ -237,6 +242,10 @@ impl HeatStage {
             *whole = walls + middle;
         }
         warmth.film.copy(&self.now);
+        let [one, two] = self.heat.before();
+        for (walls, (one, two)) in warmth.film.walls_k.iter_mut().zip(one.iter().zip(two)) {
+            *walls -= 0.5 * (one + two);
+        }
         self.heat.commit(&mut warmth.state);
     }
 

@@ -32,7 +32,7 @@ use crate::saved::{Saved, saved};
 use far::Far;
 use history::history;
 use plane::{Plane, Spread};
-use symbols::{Moving, Own, Symbols, exponentials, n_exponentials};
+use symbols::{EXPONENTIALS, Moving, Own, Symbols, exponentials};
 
 /// Steps between two clearings of the padding; fewer, but not below the second, where heat would come round meanwhile.
 const DAMP_EVERY: u32 = 16;
@@ -70,23 +70,23 @@ pub struct HeatStep<'a> {
 
 /// Waves of a field.
 #[derive(Debug, Clone, PartialEq, Default)]
-struct Waves<T>(Vec<Complex<T>>);
+struct Waves(Vec<Complex<f32>>);
 
-impl<T: Copy + Serialize> Serialize for Waves<T> {
+impl Serialize for Waves {
     fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.collect_seq(self.0.iter().flat_map(|c| [c.re, c.im]))
     }
 }
 
-impl<'de, T: Copy + Deserialize<'de>> Deserialize<'de> for Waves<T> {
+impl<'de> Deserialize<'de> for Waves {
     fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let flat = Vec::<T>::deserialize(from)?;
+        let flat = Vec::<f32>::deserialize(from)?;
         let pairs = flat.chunks_exact(2).map(|c| Complex::new(c[0], c[1]));
         Ok(Self(pairs.collect()))
     }
 }
 
-impl<T: Copy> Saved for Waves<T> {
+impl Saved for Waves {
     fn check(&self, saved: &Self) -> Result<(), String> {
         if self.0.len() == saved.0.len() {
             Ok(())
@@ -105,7 +105,7 @@ impl<T: Copy> Saved for Waves<T> {
 pub struct HeatState {
     bodies: [Past; 2],
     /// Modes of the far planes of both; empty where there are none.
-    far: [Waves<f32>; 2],
+    far: [Waves; 2],
     /// d of the last step, W/m².
     exchange: Vec<f64>,
     /// Steps since the padding was cleared.
@@ -123,10 +123,10 @@ saved! {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Past {
     /// w_j u_j √κ/k_c, by blocks of waves, in each one exponential after another.
-    modes: Waves<f32>,
+    modes: Waves,
     /// q of the last step and of the last but one.
-    last: Waves<f64>,
-    before: Waves<f64>,
+    last: Waves,
+    before: Waves,
 }
 
 saved! {
@@ -163,15 +163,15 @@ pub struct Heat {
     past: [Vec<f64>; 2],
     /// Waves of a step by itself: of Q, of d (`crossing`; known once a step's heat has been shared), of what is added to it, and
     /// others.
-    made: Vec<Complex<f64>>,
-    crossing: Vec<Complex<f64>>,
+    made: Vec<Complex<f32>>,
+    crossing: Vec<Complex<f32>>,
     is_known: bool,
-    added: Vec<Complex<f64>>,
-    brief_waves: Vec<Complex<f64>>,
+    added: Vec<Complex<f32>>,
+    brief_waves: Vec<Complex<f32>>,
     /// Waves of all that came before.
-    scratch: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f32>>,
     /// Modes at the end of the step.
-    next: [Waves<f32>; 2],
+    next: [Waves; 2],
     fields: [Vec<f64>; 8],
 }
 
@@ -180,7 +180,19 @@ impl Heat {
     pub fn new(grid: &Grid, length_m: f64, bodies: [Thermal; 2], speed_m_s: f64) -> Self {
         let peclet = bodies.map(|body| speed_m_s.abs() * length_m / body.diffusivity);
         let spreads = peclet[0].min(peclet[1]) < SPREADS;
-        let mut plane = Plane::new(grid, spreads);
+        // Steps of an interval, at which both bodies move alike.
+        let time = f64::from(DAMP_EVERY) * grid.dx;
+        let slowest = peclet[0].min(peclet[1]);
+        let mut plane = if spreads {
+            Plane::new(grid, true)
+        } else {
+            let heat = Spread {
+                spreads: (4.0 * time / slowest).sqrt(),
+                carried: time,
+                upstream: slowest.recip(),
+            };
+            Plane::cleared_of(grid, heat)
+        };
         let far = if spreads {
             Far::new(grid, &plane)
         } else {
@@ -191,7 +203,7 @@ impl Heat {
         }
         let field = || vec![0.0; grid.len()];
         let waves = || vec![Complex::default(); plane.len()];
-        let modes = || Waves(vec![Complex::default(); plane.len() * n_exponentials()]);
+        let modes = || Waves(vec![Complex::default(); plane.len() * EXPONENTIALS.len()]);
         Self {
             past: [field(), field()],
             into_body_2: field(),
@@ -200,7 +212,7 @@ impl Heat {
             is_known: false,
             added: Vec::new(),
             brief_waves: Vec::new(),
-            brief: Plane::reaching(&plane, 0.0),
+            brief: Plane::reaching(&plane, 0.0, 0.0),
             scratch: waves(),
             next: [modes(), modes()],
             plane,
@@ -221,7 +233,7 @@ impl Heat {
         let past = || Past {
             modes: Waves(vec![
                 Complex::default();
-                self.plane.len() * n_exponentials()
+                self.plane.len() * EXPONENTIALS.len()
             ]),
             last: waves(),
             before: waves(),
@@ -253,7 +265,7 @@ impl Heat {
         if self.tables.as_ref().is_none_or(|(_, own)| *own != asked) {
             self.make_tables(dt_s, speeds_m_s, state.made_for_s);
         }
-        if state.since >= self.damp_every(dt_s) {
+        if state.since >= self.damp_every(dt_s, speeds_m_s) {
             state.since = 0;
             let all = state.bodies.iter_mut().zip(&mut state.far);
             for ((past, far), speed) in all.zip(speeds_m_s) {
@@ -281,7 +293,8 @@ impl Heat {
 
     /// Tables and the plane of a step of that length and speeds.
     fn make_tables(&mut self, dt_s: f64, speeds_m_s: [f64; 2], made_for_s: f64) {
-        let spread = self.spread(dt_s, speeds_m_s);
+        let steps = f64::from(self.damp_every(dt_s, speeds_m_s));
+        let spread = self.spread(steps * dt_s, speeds_m_s);
         self.plane.clear_for(spread);
         let exponentials = exponentials(made_for_s);
         if let Some(far) = &mut self.far {
@@ -296,7 +309,7 @@ impl Heat {
         let apart = 0.5 * (speeds_m_s[0] - speeds_m_s[1]).abs() * dt_s;
         let spreads = (4.0 * self.fastest_diffusivity() * dt_s).sqrt();
         let reach = (STEP_SPREADS * spreads + apart) / self.length_m;
-        self.brief = Plane::reaching(&self.plane, reach);
+        self.brief = Plane::reaching(&self.plane, reach, reach);
         let n = self.brief.len();
         for waves in [
             &mut self.made,
@@ -316,26 +329,33 @@ impl Heat {
         self.tables = Some((Tables { before, own }, asked));
     }
 
-    /// Steps between two clearings: where heat spreads as fast as it is carried, it spreads over a quarter of the padding.
-    fn damp_every(&self, dt_s: f64) -> u32 {
-        if self.far.is_none() {
-            return DAMP_EVERY;
-        }
-        let room = 0.25 * self.plane.padding() * self.length_m;
-        let steps = room * room / (4.0 * self.fastest_diffusivity() * dt_s);
-        (steps as u32).clamp(DAMP_OFTEN, DAMP_EVERY)
+    /// Steps between two clearings: as many as the padding has room for.
+    fn damp_every(&self, dt_s: f64, speeds_m_s: [f64; 2]) -> u32 {
+        let padding = self.plane.padding();
+        let has_room = |steps: &u32| {
+            let spread = self.spread(f64::from(*steps) * dt_s, speeds_m_s);
+            if self.far.is_some() {
+                // Heat spreads as fast as it is carried: over a quarter of it.
+                spread.spreads <= 0.25 * padding
+            } else {
+                spread.along() <= padding
+            }
+        };
+        (DAMP_OFTEN..=DAMP_EVERY)
+            .rev()
+            .find(has_room)
+            .unwrap_or(DAMP_OFTEN)
     }
 
     fn fastest_diffusivity(&self) -> f64 {
         f64::max(self.bodies[0].diffusivity, self.bodies[1].diffusivity)
     }
 
-    /// How heat goes between two clearings.
-    fn spread(&self, dt_s: f64, speeds_m_s: [f64; 2]) -> Spread {
+    /// How heat goes in a time.
+    fn spread(&self, time_s: f64, speeds_m_s: [f64; 2]) -> Spread {
         let [fast, slow] =
             [f64::max, f64::min].map(|of| of(speeds_m_s[0].abs(), speeds_m_s[1].abs()));
         let diffusivity = self.fastest_diffusivity();
-        let time_s = f64::from(self.damp_every(dt_s)) * dt_s;
         Spread {
             spreads: (4.0 * diffusivity * time_s).sqrt() / self.length_m,
             carried: fast * time_s / self.length_m,
@@ -347,12 +367,12 @@ impl Heat {
     fn damp(
         &mut self,
         past: &mut Past,
-        beyond: &mut Waves<f32>,
+        beyond: &mut Waves,
         forward: bool,
         [dt_s, made_for_s]: [f64; 2],
     ) {
         let across = self.plane.shape()[0] as f64;
-        let n = n_exponentials();
+        let n = EXPONENTIALS.len();
         for (mode, [rate, _]) in exponentials(made_for_s).iter().enumerate() {
             if rate * dt_s * across > GONE {
                 continue;
@@ -363,9 +383,8 @@ impl Heat {
                 .zip(past.modes.0.chunks(BLOCK * n))
             {
                 let own = &block[mode * waves.len()..];
-                for (wave, own) in waves.iter_mut().zip(own) {
-                    *wave = Complex::new(own.re.into(), own.im.into());
-                }
+                let width = waves.len();
+                waves.copy_from_slice(&own[..width]);
             }
             self.plane.damp(&mut self.scratch, forward);
             if let Some(far) = &mut self.far {
@@ -377,9 +396,7 @@ impl Heat {
                 .zip(past.modes.0.chunks_mut(BLOCK * n))
             {
                 let own = &mut block[mode * waves.len()..];
-                for (wave, own) in waves.iter().zip(own) {
-                    *own = Complex::new(wave.re as f32, wave.im as f32);
-                }
+                own[..waves.len()].copy_from_slice(waves);
             }
         }
     }
@@ -424,6 +441,11 @@ impl Heat {
                 std::mem::swap(&mut state.far[body], &mut far.next[body]);
             }
         }
+    }
+
+    /// What the heat of all steps before makes of both surfaces at the end of the step that has begun, K.
+    pub fn before(&self) -> [&[f64]; 2] {
+        [&self.past[0], &self.past[1]]
     }
 
     /// Mean over waves of what heat of now does to both surfaces: what a node's own heat does to it, m² K/W.

@@ -288,7 +288,9 @@ fn maps_of_a_point(views: &mut Views, shown: &ShownViews) -> ContainerLike {
         .then(|| views.map(fringes, INTERFEROGRAM, &[], &shown.interferogram))
         .into_iter()
         .collect();
-    all.push(views.map(Subject::Traction.title(), maps::TRACTION, &[], map));
+    if shown.slides() {
+        all.push(views.map(Subject::Traction.title(), maps::TRACTION, &[], map));
+    }
     for (rough, subject, entity) in [
         (shown.rough[0], Subject::Roughness1, maps::ROUGHNESS_1),
         (shown.rough[1], Subject::Roughness2, maps::ROUGHNESS_2),
@@ -409,9 +411,13 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
         pressure_series(views),
         views.named(&shown.said("Film, µm"), &["series/film_um"]),
         views.named("Contact, %", &["series/contact_percent"]),
-        views.single("Friction coefficient", "series/friction"),
-        views.single("Regime: 0 dry to 3 full film", "series/regime"),
     ];
+    if !shown.is_dry() {
+        all.push(views.single("Regime: 0 dry to 3 full film", "series/regime"));
+    }
+    if shown.slides() {
+        all.push(views.single("Friction coefficient", "series/friction"));
+    }
     if shown.knobs == Knobs::Turn {
         let load = match kind {
             ContactKind::Point => ("Load, N", "series/load_N"),
@@ -430,8 +436,10 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
         };
         all.push(views.named(title, &[YIELDED]));
     }
-    // What is of heat has a tab of its own.
-    let known = by_itself().filter(|quantity| quantity.dimension != Dimension::Temperature);
+    // What is of heat has a tab of its own, and the one pressure among them is the shear of the surfaces.
+    let known = by_itself()
+        .filter(|quantity| quantity.dimension != Dimension::Temperature)
+        .filter(|quantity| quantity.dimension != Dimension::Pressure || shown.slides());
     for quantity in known {
         all.push(views.single(&quantity.label(kind), &entity(quantity, kind)));
     }

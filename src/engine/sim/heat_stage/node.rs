@@ -11,8 +11,9 @@ const FLOW_OF_SLIDING: f64 = 1.0 / 20.0;
 const FLOW_OF_FLOW: f64 = 3.0 / 84.0;
 const MIDDLE_OF_FLOW: f64 = 1.0 / 16.0;
 
-/// The K of all nodes of a block below which c = base − K, to its square.
+/// The K of all nodes of a block below which c = base − K, to its square; and below which one step of Newton does, to 1e-5.
 const FAINT: f64 = 1e-5;
+const WARM: f64 = 0.1;
 
 /// A row of nodes.
 pub(super) struct Row<'a> {
@@ -176,22 +177,23 @@ fn thinner_row(
     for start in (0..thinner.len()).step_by(BLOCK) {
         let [walls, sliding, resistance, solved, flowed] =
             [walls, sliding, resistance, solved, flowed].map(|field| block(field, start));
-        let mut warmed = 0;
+        let mut warmed = [0, 0];
         for i in 0..BLOCK {
             rest[i] = walls[i] + FLOW_OF_SLIDING * sliding[i] * resistance[i];
             warms[i] = FLOW_OF_FLOW * flowed[i] * resistance[i];
             base[i] = thinning.at_rest(rest[i]);
             k[i] = thinning.falls_at_rest(rest[i]) * warms[i] * exp(base[i] - solved[i]);
-            warmed |= u64::from(k[i] > FAINT);
+            warmed[0] |= u64::from(k[i] > FAINT);
+            warmed[1] |= u64::from(k[i] > WARM);
             c[i] = base[i] - k[i];
         }
         // Of exponential oil exactly base − W(K), Lambert's; the guess is good to a few per cent for any K.
-        if warmed != 0 {
+        if warmed[0] != 0 {
             for i in 0..BLOCK {
                 let k = ln(1.0 + k[i]);
                 c[i] = base[i] - k * (1.0 - ln(1.0 + k) / (2.0 + k));
             }
-            for _ in 0..2 {
+            for _ in 0..=warmed[1] {
                 for i in 0..BLOCK {
                     let of_flow = warms[i] * exp(c[i] - solved[i]);
                     let residual = c[i] - thinning.at_rest(rest[i] + of_flow);

@@ -31,7 +31,7 @@ impl Heat {
             .zip(one.par_iter().zip(two))
             .with_min_len(BLOCK)
             .for_each(|((to, (made, d)), (a1, a2))| {
-                *to = made * 0.5 * (a2 - a1) - *d * (a1 + a2);
+                *to = made * 0.5 * (a2 - a1) - d * (a1 + a2);
             });
         self.brief.back(&self.brief_waves, &mut self.fields[2]);
         let [first, second] = &self.past;
@@ -83,6 +83,7 @@ impl Heat {
 
     /// Adds to the waves of d what has been added to it: what the operator was last applied to, so many times.
     fn add(&mut self, times: f64) {
+        let times = times as f32;
         (self.crossing.par_iter_mut().zip(&self.added))
             .with_min_len(BLOCK)
             .for_each(|(d, added)| *d += added * times);

@@ -11,7 +11,8 @@
 use rustfft::num_complex::Complex;
 
 use super::plane::{Plane, Spread};
-use super::{Thermal, Waves, n_exponentials};
+use super::symbols::{EXPONENTIALS, narrow};
+use super::{Thermal, Waves};
 use crate::math::grid::{Grid, Symmetry};
 
 /// Intervals of the near plane that one here stands for.
@@ -27,9 +28,8 @@ pub(super) struct Far {
     /// Of both bodies, one exponential after another: what is left of a mode after the step.
     decay: [Vec<Complex<f32>>; 2],
     /// Modes at the end of the step.
-    pub(super) next: [Waves<f32>; 2],
-    waves: Vec<Complex<f64>>,
-    sums: Vec<Complex<f32>>,
+    pub(super) next: [Waves; 2],
+    waves: Vec<Complex<f32>>,
     field: Vec<f64>,
     /// Where columns and rows of the near grid, and columns of its padded one, lie here: the point before, and the part of the
     /// way to the next one.
@@ -63,7 +63,7 @@ impl Far {
         };
         let plane = Plane::new(&grid, true);
         let zero = Complex::default();
-        let all = plane.len() * n_exponentials();
+        let all = plane.len() * EXPONENTIALS.len();
         Some(Self {
             decay: [vec![Complex::default(); all], vec![Complex::default(); all]],
             next: [
@@ -71,7 +71,6 @@ impl Far {
                 Waves(vec![Complex::default(); all]),
             ],
             waves: vec![zero; plane.len()],
-            sums: vec![Complex::default(); plane.len()],
             field: vec![0.0; grid.len()],
             columns: (0..near.nx)
                 .map(|i| part_of((near.x(i) - grid.x_min) / grid.dx))
@@ -89,7 +88,7 @@ impl Far {
     }
 
     /// No heat.
-    pub(super) fn cold(&self) -> Waves<f32> {
+    pub(super) fn cold(&self) -> Waves {
         Waves(vec![Complex::default(); self.next[0].0.len()])
     }
 
@@ -113,34 +112,21 @@ impl Far {
                     let [kx, ky] = self.plane.wave(k).map(|k| k / length_m);
                     let spreads = body.diffusivity * (kx * kx + ky * ky);
                     let mu = Complex::new(spreads + rate, kx * v_m_s) * dt_s;
-                    let left = (-mu).exp();
-                    *decay = Complex::new(left.re as f32, left.im as f32);
+                    *decay = narrow((-mu).exp());
                 }
             }
         }
     }
 
     /// Clears the rim of a mode, and adds to it what a clearing near by has just taken away.
-    pub(super) fn take(
-        &mut self,
-        near: &Plane,
-        mode: usize,
-        modes: &mut Waves<f32>,
-        forward: bool,
-    ) {
+    pub(super) fn take(&mut self, near: &Plane, mode: usize, modes: &mut Waves, forward: bool) {
         let n = self.plane.len();
         let own = &mut modes.0[mode * n..][..n];
-        for (wide, own) in self.waves.iter_mut().zip(&*own) {
-            *wide = Complex::new(own.re.into(), own.im.into());
-        }
-        self.plane.damp(&mut self.waves, forward);
-        for (own, wide) in own.iter_mut().zip(&self.waves) {
-            *own = Complex::new(wide.re as f32, wide.im as f32);
-        }
+        self.plane.damp(own, forward);
         self.gather(near, forward);
         self.plane.forward(&self.field, &mut self.waves);
-        for (own, wide) in own.iter_mut().zip(&self.waves) {
-            *own += Complex::new(wide.re as f32, wide.im as f32);
+        for (own, more) in own.iter_mut().zip(&self.waves) {
+            *own += more;
         }
     }
 
@@ -181,7 +167,7 @@ impl Far {
                     for (column, along) in [(left, 1.0 - share), (left + 1, share)] {
                         if row < self.grid.ny && column < self.grid.nx {
                             self.field[row * self.grid.nx + column] +=
-                                value * twice * down * along / cell;
+                                f64::from(value) * twice * down * along / cell;
                         }
                     }
                 }
@@ -190,9 +176,9 @@ impl Far {
     }
 
     /// Modes at the end of a step, and how warm they make the contact.
-    pub(super) fn advance(&mut self, body: usize, modes: &Waves<f32>) {
+    pub(super) fn advance(&mut self, body: usize, modes: &Waves) {
         let n = self.plane.len();
-        self.sums.fill(Complex::default());
+        self.waves.fill(Complex::default());
         let next = self.next[body].0.chunks_exact_mut(n);
         let pairs = modes
             .0
@@ -203,11 +189,8 @@ impl Far {
             if modes.iter().all(|mode| *mode == Complex::default()) {
                 next.fill(Complex::default());
             } else {
-                fade(next, modes, decay, &mut self.sums);
+                fade(next, modes, decay, &mut self.waves);
             }
-        }
-        for (wide, sum) in self.waves.iter_mut().zip(&self.sums) {
-            *wide = Complex::new(sum.re.into(), sum.im.into());
         }
         self.plane.back(&self.waves, &mut self.field);
         let (grid, near) = (&self.grid, &self.near);

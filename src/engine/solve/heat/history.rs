@@ -8,7 +8,7 @@
 use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 
-use super::symbols::{Symbols, n_exponentials};
+use super::symbols::{EXPONENTIALS, Symbols};
 use super::{BLOCK, Past};
 
 /// The modes at the end of the step, and the waves of what all heat before it does then.
@@ -16,9 +16,9 @@ pub(super) fn history(
     table: &Symbols,
     past: &Past,
     next: &mut [Complex<f32>],
-    out: &mut [Complex<f64>],
+    out: &mut [Complex<f32>],
 ) {
-    let n = n_exponentials();
+    let n = EXPONENTIALS.len();
     let old = past
         .last
         .0
@@ -33,26 +33,17 @@ pub(super) fn history(
     .for_each(
         |(((((out, next), modes), (factors, lives)), by_last), (last, before))| {
             let width = out.len();
-            let mut sums = [Complex::<f32>::default(); BLOCK];
-            let mut heat = [[Complex::<f32>::default(); BLOCK]; 2];
-            for (heat, old) in heat.iter_mut().zip([last, before]) {
-                for (heat, old) in heat.iter_mut().zip(old) {
-                    *heat = Complex::new(old.re as f32, old.im as f32);
-                }
+            for ((out, by_last), last) in out.iter_mut().zip(by_last).zip(last) {
+                *out = by_last * last;
             }
-            let heat = [&heat[0][..width], &heat[1][..width]];
             let lines = (next.chunks_exact_mut(width).zip(modes.chunks_exact(width)))
                 .zip(factors.chunks_exact(3 * width).zip(lives));
             for ((next, modes), (factors, lives)) in lines {
                 if *lives {
-                    of_mode(next, modes, factors, heat, &mut sums[..width]);
+                    of_mode(next, modes, factors, [last, before], out);
                 } else {
                     next.fill(Complex::default());
                 }
-            }
-            let wide = |c: Complex<f32>| Complex::new(f64::from(c.re), f64::from(c.im));
-            for (((out, sum), by_last), last) in out.iter_mut().zip(sums).zip(by_last).zip(last) {
-                *out = wide(sum) + by_last * last;
             }
         },
     );

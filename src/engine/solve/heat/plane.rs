@@ -1,6 +1,7 @@
 //! Fields of the domain as waves of a padded one. Part of `heat.rs`.
 //!
 //! Waves stand by columns: all of one wavenumber along x together. Of a mirrored field, which is even along y, half are kept.
+//! They are of single precision: 1e-7 of a temperature, where the sum of exponentials is good to 1e-3 of it.
 //! Work is split in fixed blocks with buffers of their own, so that nothing depends on the number of threads.
 
 use std::sync::Arc;
@@ -11,12 +12,12 @@ use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 use crate::math::grid::{Grid, Symmetry};
-use crate::math::lane_fft::LaneFft;
 
-/// Points of the padded domain over intervals of the domain, along x of a line and along both of a point: where heat is carried
-/// away, and where it spreads as fast as it is carried.
+/// Points of the padded domain over intervals of the domain, along x of a line, where heat is carried away, and where it spreads
+/// as fast; along both of a point where it does, and the most where not.
 const LINE: [usize; 2] = [8, 32];
-const POINT: [usize; 2] = [2, 4];
+const SLOW: usize = 4;
+const FAST: usize = 2;
 /// Over how many of the ways that heat spreads and is carried between two clearings it falls to nothing, and lengths κ/V
 /// upstream that are left alone.
 const SPREADS: f64 = 2.0;
@@ -30,16 +31,16 @@ const GAP: usize = 8;
 
 /// Buffers of one block of rows.
 struct RowWork {
-    real: Vec<f64>,
+    real: Vec<f32>,
     /// What the last clearing took of each row, where it is asked for.
-    removed: Vec<f64>,
-    scratch: Vec<Complex<f64>>,
+    removed: Vec<f32>,
+    scratch: Vec<Complex<f32>>,
 }
 
 /// Buffers of one block of columns.
 struct ColumnWork {
-    line: Vec<Complex<f64>>,
-    scratch: Vec<Complex<f64>>,
+    line: Vec<Complex<f32>>,
+    scratch: Vec<Complex<f32>>,
 }
 
 /// Transforms between them.
@@ -51,18 +52,18 @@ pub(super) struct Plane {
     /// Waves kept along x and along y.
     n_kx: usize,
     n_ky: usize,
-    rows: Arc<dyn RealToComplex<f64>>,
-    rows_back: Arc<dyn ComplexToReal<f64>>,
-    columns: Arc<dyn Fft<f64>>,
-    columns_back: Arc<dyn Fft<f64>>,
+    rows: Arc<dyn RealToComplex<f32>>,
+    rows_back: Arc<dyn ComplexToReal<f32>>,
+    columns: Arc<dyn Fft<f32>>,
+    columns_back: Arc<dyn Fft<f32>>,
     /// Windows along x of a wake that goes along −x and along +x, and along y from the axis (mirrored) or the first row.
-    along: [Vec<f64>; 2],
-    across: Vec<f64>,
+    along: [Vec<f32>; 2],
+    across: Vec<f32>,
     splits: [usize; 2],
     /// Of every row of the padded domain that is kept.
-    spectrum: Vec<Complex<f64>>,
+    spectrum: Vec<Complex<f32>>,
     /// Columns on their way back.
-    columns_out: Vec<Complex<f64>>,
+    columns_out: Vec<Complex<f32>>,
     row_work: Vec<RowWork>,
     column_work: Vec<ColumnWork>,
 }
@@ -77,31 +78,51 @@ pub(super) struct Spread {
     pub(super) upstream: f64,
 }
 
+impl Spread {
+    /// Padding along x in which it falls to nothing, behind the domain and before it; no heat gets further upstream meanwhile than
+    /// it spreads.
+    pub(super) fn along(self) -> f64 {
+        let upstream = self.upstream.min(self.spreads);
+        2.0 * SPREADS * self.spreads + UPSTREAM * upstream + CARRIED * self.carried
+    }
+}
+
 impl Plane {
     /// `spreads`: heat spreads as fast as it is carried away.
     pub(super) fn new(grid: &Grid, spreads: bool) -> Self {
-        let [line, point] = [LINE, POINT].map(|times| times[usize::from(spreads)]);
+        let point = if spreads { SLOW } else { FAST };
         let (px, py) = match grid.symmetry {
-            Symmetry::Line => (line * (grid.nx - 1), 1),
+            Symmetry::Line => (LINE[usize::from(spreads)] * (grid.nx - 1), 1),
             Symmetry::MirrorY => (point * (grid.nx - 1), point * 2 * (grid.ny - 1)),
             Symmetry::General => (point * (grid.nx - 1), point * (grid.ny - 1)),
         };
         Self::of(grid, px, py)
     }
 
-    /// With no more padding than what reaches so far needs, in the grid's unit of length, and at most that of `whole`.
-    pub(super) fn reaching(whole: &Self, reach: f64) -> Self {
+    /// Of a point contact, with no more padding than heat needs that goes so between two clearings.
+    pub(super) fn cleared_of(grid: &Grid, heat: Spread) -> Self {
+        let whole = Self::new(grid, false);
+        if grid.symmetry == Symmetry::Line {
+            return whole;
+        }
+        Self::reaching(&whole, heat.along(), 2.0 * SPREADS * heat.spreads)
+    }
+
+    /// With no more padding than what reaches so far along x and along y needs, in the grid's unit of length, and at most that of
+    /// `whole`.
+    pub(super) fn reaching(whole: &Self, along_x: f64, along_y: f64) -> Self {
         let grid = &whole.grid;
-        let along = |points: usize, step: f64, most: usize| {
-            let reached = (reach / step).ceil().min(most as f64) as usize;
-            LaneFft::good_length(points + reached).min(most)
+        let padded = |points: usize, reach: f64, most: usize| {
+            let reached = reach.ceil().min(most as f64) as usize;
+            good_length(points + reached).min(most)
         };
+        let along_y = along_y / grid.dy;
         let py = match grid.symmetry {
             Symmetry::Line => 1,
-            Symmetry::MirrorY => along(2 * grid.ny - 1, grid.dy, whole.py),
-            Symmetry::General => along(grid.ny, grid.dy, whole.py),
+            Symmetry::MirrorY => padded(2 * grid.ny - 1, along_y, whole.py),
+            Symmetry::General => padded(grid.ny, along_y, whole.py),
         };
-        Self::of(grid, along(grid.nx, grid.dx, whole.px), py)
+        Self::of(grid, padded(grid.nx, along_x / grid.dx, whole.px), py)
     }
 
     fn of(grid: &Grid, px: usize, py: usize) -> Self {
@@ -157,7 +178,7 @@ impl Plane {
     }
 
     /// What the last clearing took away, row by row of the padded domain that is kept.
-    pub(super) fn removed(&self) -> impl Iterator<Item = &[f64]> {
+    pub(super) fn removed(&self) -> impl Iterator<Item = &[f32]> {
         let blocks = self.row_work.iter();
         let rows = blocks.flat_map(|work| work.removed.chunks_exact(self.px));
         rows.take(self.n_ky)
@@ -232,7 +253,7 @@ impl Plane {
     }
 
     /// Waves of a field of the domain, nothing beyond it.
-    pub(super) fn forward(&mut self, field: &[f64], waves: &mut [Complex<f64>]) {
+    pub(super) fn forward(&mut self, field: &[f64], waves: &mut [Complex<f32>]) {
         let (nx, n_kx) = (self.grid.nx, self.n_kx);
         let (rows, blocks) = (&self.rows, ROWS * (n_kx + GAP));
         (self.spectrum.par_chunks_mut(blocks))
@@ -241,7 +262,9 @@ impl Plane {
             .for_each(|((spectrum, field), work)| {
                 let lines = spectrum.chunks_exact_mut(n_kx + GAP);
                 for (line, from) in lines.zip(field.chunks_exact(nx)) {
-                    work.real[..nx].copy_from_slice(from);
+                    for (to, from) in work.real.iter_mut().zip(from) {
+                        *to = *from as f32;
+                    }
                     work.real[nx..].fill(0.0);
                     transform_row(rows, work, &mut line[..n_kx]);
                 }
@@ -250,7 +273,7 @@ impl Plane {
     }
 
     /// The waves of the spectrum's first `filled` rows, nothing beyond.
-    fn columns_forward(&mut self, filled: usize, waves: &mut [Complex<f64>]) {
+    fn columns_forward(&mut self, filled: usize, waves: &mut [Complex<f32>]) {
         let (n_kx, n_ky, py) = (self.n_kx, self.n_ky, self.py);
         let (spectrum, plan) = (&self.spectrum, &self.columns);
         let is_mirrored = self.grid.symmetry == Symmetry::MirrorY;
@@ -279,11 +302,11 @@ impl Plane {
     }
 
     /// Waves back along y, as columns of the first `wanted` rows.
-    fn columns_back(&mut self, wanted: usize, waves: &[Complex<f64>]) {
+    fn columns_back(&mut self, wanted: usize, waves: &[Complex<f32>]) {
         let (n_ky, py) = (self.n_ky, self.py);
         let plan = &self.columns_back;
         let is_mirrored = self.grid.symmetry == Symmetry::MirrorY;
-        let scale = 1.0 / (self.px * py) as f64;
+        let scale = 1.0 / (self.px * py) as f32;
         (self.columns_out.par_chunks_mut(COLUMNS * n_ky))
             .zip(waves.par_chunks(COLUMNS * n_ky))
             .zip(&mut self.column_work)
@@ -305,7 +328,7 @@ impl Plane {
     }
 
     /// The field of the domain.
-    pub(super) fn back(&mut self, waves: &[Complex<f64>], field: &mut [f64]) {
+    pub(super) fn back(&mut self, waves: &[Complex<f32>], field: &mut [f64]) {
         let (nx, n_kx, n_ky) = (self.grid.nx, self.n_kx, self.n_ky);
         self.columns_back(self.grid.ny, waves);
         let (columns, plan) = (&self.columns_out, &self.rows_back);
@@ -319,13 +342,15 @@ impl Plane {
                 let lines = spectrum.chunks_exact_mut(n_kx + GAP);
                 for (line, to) in lines.zip(field.chunks_exact_mut(nx)) {
                     row_back(plan, work, &mut line[..n_kx]);
-                    to.copy_from_slice(&work.real[..nx]);
+                    for (to, from) in to.iter_mut().zip(&work.real) {
+                        *to = f64::from(*from);
+                    }
                 }
             });
     }
 
     /// Takes away what lies in the padding, so that no wake comes round; `forward`: it goes along +x.
-    pub(super) fn damp(&mut self, waves: &mut [Complex<f64>], forward: bool) {
+    pub(super) fn damp(&mut self, waves: &mut [Complex<f32>], forward: bool) {
         let (n_kx, n_ky) = (self.n_kx, self.n_ky);
         self.columns_back(n_ky, waves);
         let (columns, across) = (&self.columns_out, &self.across);
@@ -357,8 +382,20 @@ impl Plane {
     }
 }
 
+/// The next even number without a factor above 3, which transforms like.
+fn good_length(least: usize) -> usize {
+    let is_good = |n: &usize| {
+        let mut rest = n >> n.trailing_zeros();
+        while rest.is_multiple_of(3) {
+            rest /= 3;
+        }
+        n.is_multiple_of(2) && rest == 1
+    };
+    (least.max(2)..).find(is_good).unwrap_or(least)
+}
+
 /// The other half of an even line, from its first.
-fn mirror(line: &mut [Complex<f64>]) {
+fn mirror(line: &mut [Complex<f32>]) {
     let n = line.len();
     for j in 1..n.div_ceil(2) {
         line[n - j] = line[j];
@@ -367,12 +404,12 @@ fn mirror(line: &mut [Complex<f64>]) {
 
 /// Rows `first..first + rows` of the columns, one after another.
 fn gather_rows(
-    columns: &[Complex<f64>],
+    columns: &[Complex<f32>],
     n_ky: usize,
     first: usize,
     rows: usize,
     n_kx: usize,
-    spectrum: &mut [Complex<f64>],
+    spectrum: &mut [Complex<f32>],
 ) {
     for i in 0..n_kx {
         let column = &columns[i * n_ky + first..][..rows];
@@ -382,12 +419,12 @@ fn gather_rows(
     }
 }
 
-fn transform_row(plan: &Arc<dyn RealToComplex<f64>>, work: &mut RowWork, to: &mut [Complex<f64>]) {
+fn transform_row(plan: &Arc<dyn RealToComplex<f32>>, work: &mut RowWork, to: &mut [Complex<f32>]) {
     plan.process_with_scratch(&mut work.real, to, &mut work.scratch)
         .expect("buffers were made for this plan");
 }
 
-fn row_back(plan: &Arc<dyn ComplexToReal<f64>>, work: &mut RowWork, from: &mut [Complex<f64>]) {
+fn row_back(plan: &Arc<dyn ComplexToReal<f32>>, work: &mut RowWork, from: &mut [Complex<f32>]) {
     // Of a real field both are real.
     from[0].im = 0.0;
     from[from.len() - 1].im = 0.0;
@@ -397,7 +434,7 @@ fn row_back(plan: &Arc<dyn ComplexToReal<f64>>, work: &mut RowWork, from: &mut [
 
 /// 1 on the first `inside` of `all` points of a ring and as far beyond, behind and before, as it need not fall; then cos² down to
 /// 0: `ends` has of both how long they are and over how much of that it falls, in points.
-fn window(i: usize, inside: usize, all: usize, ends: [[f64; 2]; 2]) -> f64 {
+fn window(i: usize, inside: usize, all: usize, ends: [[f64; 2]; 2]) -> f32 {
     let i = i % all;
     if i < inside {
         return 1.0;
@@ -412,5 +449,5 @@ fn window(i: usize, inside: usize, all: usize, ends: [[f64; 2]; 2]) -> f64 {
         }
     };
     let (behind, before) = ((i + 1 - inside) as f64, (all - i) as f64);
-    fall(behind, ends[0]).max(fall(before, ends[1]))
+    fall(behind, ends[0]).max(fall(before, ends[1])) as f32
 }
