@@ -182,6 +182,13 @@ fn thinner_row(
             rest[i] = walls[i] + FLOW_OF_SLIDING * sliding[i] * resistance[i];
             warms[i] = FLOW_OF_FLOW * flowed[i] * resistance[i];
             base[i] = thinning.at_rest(rest[i]);
+        }
+        if flowed.iter().all(|flowed| *flowed == 0.0) {
+            put(&base, thinner, start);
+            put(&zero, flowing, start);
+            continue;
+        }
+        for i in 0..BLOCK {
             k[i] = thinning.falls_at_rest(rest[i]) * warms[i] * exp(base[i] - solved[i]);
             warmed[0] |= u64::from(k[i] > FAINT);
             warmed[1] |= u64::from(k[i] > WARM);
