@@ -15,6 +15,7 @@ use asperity_engine::sim::{AgePoint, Knob};
 use asperity_explorer::tui::action::Action;
 use asperity_explorer::tui::app::{App, Effect, ErrandKind, Leading};
 use asperity_explorer::tui::event::PointerAct;
+use asperity_explorer::tui::lessons::{FILES, Lesson};
 use asperity_explorer::tui::view;
 use asperity_session::run::{Command, Settled};
 use asperity_session::sweep::Along;
@@ -260,35 +261,38 @@ fn a_lesson_asks_shows_tells_moves_on_and_returns() {
     assert_eq!(app.apply(Action::NextBeat), []);
 }
 
+/// What a press on the last place of `words` does, so many cells into them.
+fn pressed(app: &App, (width, height): (u16, u16), words: &str, into: usize) -> Option<Action> {
+    let screen = text(app, width, height);
+    let rows = screen.lines().enumerate();
+    let found =
+        rows.filter_map(|(y, row)| Some((y, row.find(words).map(|at| row[..at].chars().count())?)));
+    let (y, x) = found
+        .last()
+        .unwrap_or_else(|| panic!("{words} in\n{screen}"));
+    let at = ((x + into) as u16, y as u16);
+    let screen = Rect::new(0, 0, width, height);
+    view::pointed(app, screen, mouse(PointerAct::Press, at.0, at.1))
+}
+
+const SCREENS: [(u16, u16); 3] = [(80, 24), (160, 48), (60, 20)];
+
 #[test]
 fn answers_and_what_a_lesson_offers_can_be_pressed() {
-    for (width, height) in [(80, 24), (160, 48), (60, 20)] {
+    for screen in SCREENS {
         let mut app = running(plain());
         app.apply(Action::Lessons);
         app.apply(Action::Typical(0));
-        let press = |app: &mut App, words: &str, into: usize| {
-            let screen = text(app, width, height);
-            let rows = screen.lines().enumerate();
-            let found = rows.filter_map(|(y, row)| {
-                Some((y, row.find(words).map(|at| row[..at].chars().count())?))
-            });
-            let (y, x) = found
-                .last()
-                .unwrap_or_else(|| panic!("{words} in\n{screen}"));
-            let at = ((x + into) as u16, y as u16);
-            let screen = Rect::new(0, 0, width, height);
-            view::pointed(app, screen, mouse(PointerAct::Press, at.0, at.1))
-        };
         // The second answer, by its number and in its words.
         for (words, into) in [("2 once", 0), ("2 once", 4)] {
             assert_eq!(
-                press(&mut app, words, into),
+                pressed(&app, screen, words, into),
                 Some(Action::Typical(1)),
-                "{width}: {words}"
+                "{screen:?}: {words}"
             );
         }
-        assert_eq!(press(&mut app, "How often", 2), None);
-        assert_eq!(press(&mut app, "n show", 2), Some(Action::NextBeat));
+        assert_eq!(pressed(&app, screen, "How often", 2), None);
+        assert_eq!(pressed(&app, screen, "n show", 2), Some(Action::NextBeat));
         let scene_1 = staged(&app.apply(Action::Typical(0)));
         app.rebuilt(setup_of(scene_1));
         for (words, action) in [
@@ -296,9 +300,64 @@ fn answers_and_what_a_lesson_offers_can_be_pressed() {
             ("N back", Action::PreviousBeat),
             ("T ends", Action::EndTour),
         ] {
-            assert_eq!(press(&mut app, words, 1), Some(action), "{width}: {words}");
+            assert_eq!(
+                pressed(&app, screen, words, 1),
+                Some(action),
+                "{screen:?}: {words}"
+            );
         }
     }
+}
+
+/// By the mouse from beat to beat: every answer of every question stands on every screen and is its own button.
+#[test]
+fn every_lesson_is_played_by_the_mouse() {
+    let stage = |app: &mut App, effects: Vec<Effect>| {
+        for effect in effects {
+            if let Effect::Rebuild(scene, _) = effect {
+                app.rebuilt(setup_of(*scene));
+            }
+        }
+    };
+    let mut asked = 0;
+    for (place, (name, file)) in FILES.into_iter().enumerate() {
+        let lesson = Lesson::from_toml(file, name).unwrap();
+        let mut app = running(plain());
+        app.apply(Action::Lessons);
+        for _ in 0..place {
+            app.apply(Action::ChooseNext);
+        }
+        let begins = app.apply(Action::Enter);
+        stage(&mut app, begins);
+        for (beat, shown) in lesson.beats.iter().enumerate() {
+            let of = format!("({}/{})", beat + 1, lesson.beats.len());
+            assert!(text(&app, 160, 48).contains(&of), "{name}: {of}");
+            if let Some(question) = &shown.question {
+                for (k, answer) in question.answers.iter().enumerate() {
+                    let words: Vec<_> = answer.split(' ').take(1).collect();
+                    let words = format!("{} {}", k + 1, words[0]);
+                    for screen in SCREENS {
+                        assert_eq!(
+                            pressed(&app, screen, &words, 0),
+                            Some(Action::Typical(k)),
+                            "{name}, {screen:?}: {answer}"
+                        );
+                    }
+                }
+                asked += 1;
+                let shows = app.apply(Action::Typical(question.answers.len() - 1));
+                stage(&mut app, shows);
+                assert!(!text(&app, 160, 48).contains("n show"), "{name} {of}");
+            }
+            let on = pressed(&app, SCREENS[1], " n on ", 2);
+            assert_eq!(on, Some(Action::NextBeat), "{name} {of}");
+            if beat + 1 < lesson.beats.len() {
+                let next = app.apply(Action::NextBeat);
+                stage(&mut app, next);
+            }
+        }
+    }
+    assert!(asked >= 15, "{asked}");
 }
 
 #[test]

@@ -26,6 +26,9 @@ const GOES_ON: [Hint; 3] = [
     (" T ends ", Some(Action::EndTour)),
 ];
 
+/// Between an answer and its number, where no line breaks.
+const TIE: char = '\u{a0}';
+
 /// Before each of the figures.
 const GAP: &str = "   ";
 
@@ -154,7 +157,7 @@ fn words(app: &App, tour: &TourState) -> Vec<(String, Role)> {
         TourPhase::Asks => {
             let mut words = vec![(question.ask.clone(), Role::Strong)];
             for (place, answer) in question.answers.iter().enumerate() {
-                words.push((format!(" {}", place + 1), Role::Key));
+                words.push((format!(" {}{TIE}", place + 1), Role::Key));
                 words.push((answer.clone(), Role::Text));
             }
             words
@@ -272,17 +275,26 @@ pub(super) fn render(app: &App, caption: &Caption, area: Rect, buffer: &mut Buff
         Role::Text => Span::raw(theme.words(text)),
         role => theme.span(text, *role),
     });
-    wrapped(words).render(rows_from(text, 1), buffer);
+    wrapped(words, rows_from(text, 1), buffer);
 }
 
 fn hint(caption: &Caption) -> String {
     caption.hints.iter().map(|(words, _)| *words).collect()
 }
 
-/// Words one after the other, broken between words.
-fn wrapped<'a>(words: impl Iterator<Item = Span<'a>>) -> Paragraph<'a> {
-    let words = words.flat_map(|span| [span, Span::raw(" ")]);
-    Paragraph::new(words.collect::<Line<'_>>()).wrap(Wrap { trim: true })
+/// Draws words one after the other, broken between words.
+fn wrapped<'a>(words: impl Iterator<Item = Span<'a>>, area: Rect, buffer: &mut Buffer) {
+    let words = words.flat_map(|span| {
+        let gap = if span.content.ends_with(TIE) { "" } else { " " };
+        [span, Span::raw(gap)]
+    });
+    let words = Paragraph::new(words.collect::<Line<'_>>()).wrap(Wrap { trim: true });
+    words.render(area, buffer);
+    for at in area.positions() {
+        if buffer[at].symbol().starts_with(TIE) {
+            buffer[at].set_symbol(" ");
+        }
+    }
 }
 
 /// A press on what the title's line offers, or on an answer.
@@ -308,7 +320,7 @@ pub(super) fn pressed(app: &App, areas: &Areas, at: Position) -> Option<Action> 
         Span::styled(app.view.theme.words(text), Style::new().fg(answer))
     });
     let mut drawn = Buffer::empty(area);
-    wrapped(numbered).render(rows_from(area, 1), &mut drawn);
+    wrapped(numbered, rows_from(area, 1), &mut drawn);
     match drawn[at].fg {
         Color::Indexed(answer @ 1..) => Some(Action::Typical(usize::from(answer) - 1)),
         _ => None,
