@@ -34,8 +34,8 @@ pub(crate) struct ShownViews {
     /// Simulated time over the time in which it is played; `None` where nothing moves.
     pub(crate) playback_speed: Option<f64>,
     pub(crate) knobs: Knobs,
-    /// Whether the run begins at S = 0.
-    rolls: bool,
+    /// S that the run begins at; `None`: its scene is not known.
+    slide_roll: Option<f64>,
     pub(crate) kind: ContactKind,
     /// What is between the bodies, with a capital letter: film, or gap where no oil is.
     between: &'static str,
@@ -89,7 +89,7 @@ impl ShownViews {
 
     /// Whether the bodies slide over each other, now or later: else nothing is sheared.
     pub(crate) fn slides(&self) -> bool {
-        !self.rolls || self.knobs == Knobs::Turn
+        self.slide_roll != Some(0.0) || self.knobs == Knobs::Turn
     }
 
     /// Of a run with that first frame, before any of its other pictures is set up.
@@ -99,7 +99,7 @@ impl ShownViews {
             live: false,
             playback_speed: None,
             knobs: Knobs::of(scene),
-            rolls: scene.is_some_and(|scene| scene.motion.slide_roll == 0.0),
+            slide_roll: scene.map(|scene| scene.motion.slide_roll),
             kind: first.kind,
             between: match scene {
                 Some(scene) if scene.lubricant.is_none() => GAP,

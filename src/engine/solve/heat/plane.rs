@@ -391,7 +391,8 @@ fn good_length(least: usize) -> usize {
         }
         n.is_multiple_of(2) && rest == 1
     };
-    (least.max(2)..).find(is_good).unwrap_or(least)
+    let least = least.max(2);
+    (least..=2 * least).find(is_good).unwrap_or(least)
 }
 
 /// The other half of an even line, from its first.
