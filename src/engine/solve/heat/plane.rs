@@ -18,8 +18,8 @@ use crate::math::grid::{Grid, Symmetry};
 const LINE: [usize; 2] = [8, 32];
 const SLOW: usize = 4;
 const FAST: usize = 2;
-/// Over how many of the ways that heat spreads and is carried between two clearings it falls to nothing, and lengths κ/V
-/// upstream that are left alone.
+/// How many of the ways that heat spreads and is carried between two clearings it takes to be gone, the last of the latter empty,
+/// and lengths κ/V upstream that are left alone.
 const SPREADS: f64 = 2.0;
 const CARRIED: f64 = 3.0;
 const UPSTREAM: f64 = 4.0;
@@ -204,14 +204,16 @@ impl Plane {
         let (grid, px, py) = (&self.grid, self.px, self.py);
         let (dx, dy) = (grid.dx, grid.dy);
         let padding = (px - grid.nx) as f64;
-        let spreads = SPREADS * heat.spreads / dx;
+        let (spreads, carried) = (SPREADS * heat.spreads / dx, heat.carried / dx);
         let before = (spreads + UPSTREAM * heat.upstream / dx).min(0.5 * padding);
+        // What little a clearing leaves next to its end is carried on until the next one: so far from the end nothing is left.
+        let wake = padding - before;
         let ends = [
-            [padding - before, spreads + CARRIED * heat.carried / dx],
+            [wake - carried, spreads + (CARRIED - 1.0) * carried],
             [before, spreads],
         ];
-        // Behind the domain along +x there is as much room as the first of both ends is long.
-        self.splits = [ends[1], ends[0]].map(|end| (grid.nx + end[0] as usize).min(px));
+        // Behind the domain along +x there is as much room as the wake is long.
+        self.splits = [before, wake].map(|end| (grid.nx + end as usize).min(px));
         self.along = [[ends[1], ends[0]], ends]
             .map(|ends| (0..px).map(|i| window(i, grid.nx, px, ends)).collect());
         if py > 1 {
