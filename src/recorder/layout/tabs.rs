@@ -412,9 +412,6 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
         views.named(&shown.said("Film, µm"), &["series/film_um"]),
         views.named("Contact, %", &["series/contact_percent"]),
     ];
-    if !shown.is_dry() {
-        all.push(views.single("Regime: 0 dry to 3 full film", "series/regime"));
-    }
     if shown.slides() {
         all.push(views.single("Friction coefficient", "series/friction"));
     }
@@ -428,6 +425,9 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
             views.named("Hertz half-width, µm", &["series/half_width_um"]),
             views.single("λ ratio", "series/lambda_ratio"),
         ]);
+        if !shown.is_dry() {
+            all.push(views.single("Regime: 0 dry to 3 full film", "series/regime"));
+        }
     }
     if shown.yields {
         let title = match kind {
