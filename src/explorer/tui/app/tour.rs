@@ -90,8 +90,10 @@ impl App {
                 }
                 None => self.tell(),
             },
-            _ if tour.goes_on() => self.begin_beat(tour.place, tour.beat + 1),
-            _ => self.begin_beat(tour.place + 1, 0),
+            TourPhase::Shows | TourPhase::Tells(_) if tour.goes_on() => {
+                self.begin_beat(tour.place, tour.beat + 1)
+            }
+            TourPhase::Shows | TourPhase::Tells(_) => self.begin_beat(tour.place + 1, 0),
         }
     }
 
@@ -133,13 +135,14 @@ impl App {
         };
         let shown = tour.is_shown(passages) && self.not_yet(tour).is_none();
         match tour.phase {
-            TourPhase::Asks => Vec::new(),
             TourPhase::Shows if shown && tour.beat().question.is_some() => self.tell(),
             TourPhase::Shows if !shown => Vec::new(),
-            _ if tour.goes_on() && tour.is_read(now) && !self.stands() => {
+            TourPhase::Shows | TourPhase::Tells(_)
+                if tour.goes_on() && tour.is_read(now) && !self.stands() =>
+            {
                 self.begin_beat(tour.place, tour.beat + 1)
             }
-            _ => Vec::new(),
+            TourPhase::Asks | TourPhase::Shows | TourPhase::Tells(_) => Vec::new(),
         }
     }
 
@@ -147,6 +150,9 @@ impl App {
     fn not_yet(&self, tour: &TourState) -> Option<&'static str> {
         if self.is_turning() {
             return Some("the knobs are still on their way");
+        }
+        if self.is_ageing() {
+            return Some("the surfaces are not that old yet");
         }
         let moves = self.life().is_some_and(|life| !life.settled);
         (moves && !tour.is_overdue(self.passages())).then_some("the average still moves")
@@ -162,6 +168,14 @@ impl App {
     fn is_turning(&self) -> bool {
         let far = |dial: &Dial| (dial.now - dial.target).abs() > 1e-6 * dial.target.abs();
         self.choice.dials.iter().any(far)
+    }
+
+    /// Whether the surfaces have not come to the age that the scene asks for.
+    fn is_ageing(&self) -> bool {
+        let aged = self.frame().and_then(|frame| frame.age);
+        let cycles = aged.map_or(0.0, |age| age.cycles);
+        let asked = self.run.setup.scene.age;
+        asked.is_some_and(|asked| cycles < asked.cycles * (1.0 - 1e-9))
     }
 
     /// A knob that does not stand where the beat has put it.
