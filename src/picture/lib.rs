@@ -305,7 +305,7 @@ impl Look {
         let sign = match self.above {
             AboveRange::Top if is_at(high) => "≥",
             AboveRange::Top if is_at(low) && low < 0.0 => "≤",
-            _ => "",
+            AboveRange::Top | AboveRange::Dark => "",
         };
         format!("{sign}{}", tick(self.unit.of(value)))
     }

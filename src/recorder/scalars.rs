@@ -50,12 +50,14 @@ pub(crate) fn code(regime: LubricationRegime) -> f64 {
     }
 }
 
-fn regime(code: f64) -> LubricationRegime {
+/// `None`: no code of ours.
+fn regime(code: f64) -> Option<LubricationRegime> {
     match code {
-        0.0 => LubricationRegime::Dry,
-        1.0 => LubricationRegime::Boundary,
-        2.0 => LubricationRegime::Mixed,
-        _ => LubricationRegime::FullFilm,
+        0.0 => Some(LubricationRegime::Dry),
+        1.0 => Some(LubricationRegime::Boundary),
+        2.0 => Some(LubricationRegime::Mixed),
+        3.0 => Some(LubricationRegime::FullFilm),
+        _ => None,
     }
 }
 
@@ -152,7 +154,7 @@ impl RowReader {
             set(&mut life, name, *value);
         }
         let mut metrics: Metrics = serde_json::from_value(metrics).ok()?;
-        metrics.regime = regime(of("regime_code").unwrap_or(3.0));
+        metrics.regime = regime(of("regime_code").unwrap_or(3.0))?;
         metrics.yielded_m3 = match [of("yielded_body_1_m3"), of("yielded_body_2_m3")] {
             [Some(one), Some(two)] => Some([one, two]),
             _ => None,

@@ -485,19 +485,10 @@ impl WornSkin {
         ];
         for (own, other) in fields {
             for c in 0..self.columns {
-                let (columns, weights) =
-                    around(place_in(c, self.columns, coarser.columns), coarser.columns);
-                let at = |row: usize| -> f64 {
-                    let values = &other[row * coarser.columns..][..coarser.columns];
-                    let pairs = columns.iter().zip(weights);
-                    pairs.map(|(&k, weight)| weight * values[k]).sum()
-                };
+                let n = coarser.columns;
+                let place = around(place_in(c, self.columns, n), n);
                 for j in 0..rows {
-                    let (below, above) = match rows {
-                        1 => (0, 0),
-                        _ => (j / 2, j.div_ceil(2)),
-                    };
-                    own[j * self.columns + c] = (0.5 * (at(below) + at(above))).max(0.0);
+                    own[j * self.columns + c] = of_coarser(other, n, place, (j, rows)).max(0.0);
                 }
             }
         }
@@ -588,12 +579,33 @@ pub(super) fn place_in(column: usize, n: usize, other: usize) -> f64 {
     (column as f64 - 0.5 * (n - 1) as f64) * other as f64 / n as f64
 }
 
-/// The four of `n` columns in a ring around a place, and their weights.
-fn around(place: f64, n: usize) -> ([usize; 4], [f64; 4]) {
+/// Four columns of a ring, and their weights.
+pub(super) type Around = ([usize; 4], [f64; 4]);
+
+/// The four of `n` columns in a ring around a place.
+pub(super) fn around(place: f64, n: usize) -> Around {
     let middle = 0.5 * (n - 1) as f64;
     let (first, weights) = HeightMap::stencil(place - middle, n);
     let columns = [0, 1, 2, 3].map(|k| (first + k).rem_euclid(n as i64) as usize);
     (columns, weights)
+}
+
+/// What a field of `n` columns on half as many rows has around a place and at row `j` of `rows`, linear between its own.
+pub(super) fn of_coarser(
+    field: &[f64],
+    n: usize,
+    (columns, weights): Around,
+    (j, rows): (usize, usize),
+) -> f64 {
+    let at = |row: usize| -> f64 {
+        let pairs = columns.iter().zip(weights);
+        pairs.map(|(&k, weight)| weight * field[row * n + k]).sum()
+    };
+    if rows == 1 {
+        at(0)
+    } else {
+        0.5 * (at(j / 2) + at(j.div_ceil(2)))
+    }
 }
 
 #[cfg(test)]

@@ -23,6 +23,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::motion::BodyTravel;
+use super::worn::{around, of_coarser};
 use crate::math::grid::Grid;
 use crate::physics::height_map::HeightMap;
 use crate::saved::saved;
@@ -154,18 +155,9 @@ impl Skin {
             } else {
                 round + grid.x_min - self.distance
             };
-            let (columns, weights) = coarser.around(place);
-            let at = |row: usize| -> f64 {
-                let depth = &coarser.depth[row * coarser.columns..][..coarser.columns];
-                let pairs = columns.iter().zip(weights);
-                pairs.map(|(&k, weight)| weight * depth[k]).sum()
-            };
+            let place = around(place / coarser.spacing(), coarser.columns);
             for j in 0..grid.ny {
-                let (below, above) = match grid.ny {
-                    1 => (0, 0),
-                    _ => (j / 2, j.div_ceil(2)),
-                };
-                let w = 0.5 * (at(below) + at(above));
+                let w = of_coarser(&coarser.depth, coarser.columns, place, (j, grid.ny));
                 self.depth[j * self.columns + c] = if is_known { w.max(0.0) } else { 0.0 };
             }
         }
@@ -219,19 +211,10 @@ impl Skin {
         self.length / self.columns as f64
     }
 
-    /// The four columns around a place of the ring, and their weights.
-    fn around(&self, place: f64) -> ([usize; 4], [f64; 4]) {
-        let n = self.columns;
-        let middle = 0.5 * (n - 1) as f64;
-        let (first, weights) = HeightMap::stencil(place / self.spacing() - middle, n);
-        let wrapped = |k: usize| (first + k as i64).rem_euclid(n as i64) as usize;
-        ([0, 1, 2, 3].map(wrapped), weights)
-    }
-
     fn lower(&self, grid: &Grid, distance: f64, scale: f64, heights: &mut [f64]) {
         let n = self.columns;
         for i in 0..grid.nx {
-            let (columns, weights) = self.around(grid.x(i) - distance);
+            let (columns, weights) = around((grid.x(i) - distance) / self.spacing(), n);
             for (j, row) in heights.chunks_exact_mut(grid.nx).enumerate() {
                 let depth = &self.depth[j * n..(j + 1) * n];
                 let pairs = columns.iter().zip(weights);

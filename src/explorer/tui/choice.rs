@@ -141,7 +141,9 @@ impl Choice {
                     let over_a = sig(wave_m / scene.hertz().a_m, 2);
                     let which = match surface(scene, body) {
                         Surface::Random(_) => "shortest, ",
-                        _ => "",
+                        Surface::Smooth {}
+                        | Surface::Sinusoid { .. }
+                        | Surface::HeightMap { .. } => "",
                     };
                     format!("{}  {which}W/a {over_a}", units.length().show(wave_m, 3))
                 }

@@ -1,6 +1,6 @@
 //! A dial: one knob on the screen, with its range, its steps and where it is going.
 
-use crate::tui::units::{Unit, Units};
+use crate::tui::units::{Unit, Units, sig};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{ContactKind, Knob, Scene, SceneError, Steps, Surface};
 
@@ -43,6 +43,18 @@ pub struct Dial {
 }
 
 impl Dial {
+    /// A value of it in the unit that it is shown in: S keeps its two decimals, so that it does not jump about.
+    pub fn figure(&self, value: f64, digits: i32) -> String {
+        match self.knob {
+            Knob::SlideRoll => format!("{value:.2}"),
+            Knob::ForceN
+            | Knob::ForceNPerM
+            | Knob::Amplitude1M
+            | Knob::Amplitude2M
+            | Knob::EntrainmentMS => sig(value, digits),
+        }
+    }
+
     /// The value that so many small steps away is.
     pub fn turned(&self, n: i32) -> f64 {
         let steps = f64::from(n);

@@ -69,22 +69,35 @@ pub(crate) enum Span<'a> {
 }
 
 impl Span<'_> {
-    /// Pressure or film of the centre line so many passages before the frame; `None`: before the first.
+    /// Pressure or film of the centre line so many passages before the frame; `None`: before the first, or nothing else is kept.
     pub(crate) fn line(&self, subject: Subject, ago: f64) -> Option<CentreValues<'_>> {
+        let is_film = match subject {
+            Subject::Pressure => false,
+            Subject::Film => true,
+            Subject::Interferogram
+            | Subject::Contact
+            | Subject::Traction
+            | Subject::Surface1
+            | Subject::Surface2
+            | Subject::OilRise
+            | Subject::Roughness1
+            | Subject::Roughness2
+            | Subject::RoughnessOfBoth
+            | Subject::EffectiveStress
+            | Subject::ShearStress => return None,
+        };
         match self {
             Self::Run { kept, passages } => {
                 let row = kept.row(passages - ago)?;
-                let values = match subject {
-                    Subject::Film => &row.film,
-                    _ => &row.pressure,
-                };
+                let values = if is_film { &row.film } else { &row.pressure };
                 Some((values, &row.contact))
             }
             Self::Orbit(replay) => {
                 let frame = replay.before(ago);
-                let values = match subject {
-                    Subject::Film => &frame.film_m,
-                    _ => &frame.pressure_pa,
+                let values = if is_film {
+                    &frame.film_m
+                } else {
+                    &frame.pressure_pa
                 };
                 Some((frame.centre_line(values), frame.centre_line(&frame.contact)))
             }

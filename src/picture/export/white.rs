@@ -14,7 +14,7 @@ const SIGNED: [u32; 17] = [
 pub(super) fn paint(look: &Look, tint: Tint) -> Rgb {
     match tint {
         Tint::Share(share) if look.ramp() == Ramp::Diverging => signed(share),
-        _ => look.paint(tint).unwrap_or([255; 3]),
+        Tint::Blank | Tint::Plain(_) | Tint::Share(_) => look.paint(tint).unwrap_or([255; 3]),
     }
 }
 

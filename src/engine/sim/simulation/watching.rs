@@ -79,7 +79,9 @@ fn heat(plan: &SimPlan, state: &mut State, work: &mut Work, attempted: &Attempte
     let is_steady = matches!(plan.decided.time_dependence, TimeDependence::Steady { .. });
     let made = match state.phase {
         Phase::Passage => state.step,
-        _ => state.start_up_steps.0,
+        Phase::Smooth { .. } | Phase::Settle { .. } | Phase::Develop { .. } => {
+            state.start_up_steps.0
+        }
     };
     if is_steady && !state.drive.is_walking() {
         let due = made.is_multiple_of((1.0 / grid.dx).ceil() as u64);

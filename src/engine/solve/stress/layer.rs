@@ -121,7 +121,7 @@ impl Layer {
         match symmetry {
             _ if r >= self.inside_y => 0.0,
             Symmetry::MirrorY if r > 0 => 2.0,
-            _ => 1.0,
+            Symmetry::MirrorY | Symmetry::General | Symmetry::Line => 1.0,
         }
     }
 }

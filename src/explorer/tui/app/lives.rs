@@ -43,7 +43,7 @@ impl App {
         self.run.setup.scene.life.as_ref()?;
         match (self.leading(), self.life()) {
             (Leading::Simulated | Leading::Settling, Some(life)) => Some(simulated(&life)),
-            _ => Some(self.lives.estimate.best()),
+            (Leading::Scaled | Leading::Formula, _) | (_, None) => Some(self.lives.estimate.best()),
         }
     }
 
@@ -51,7 +51,7 @@ impl App {
     pub fn leading_life(&self) -> Option<f64> {
         match (self.leading(), self.life()) {
             (Leading::Simulated | Leading::Settling, Some(life)) => Some(life.life_relative),
-            _ => self.leading_factors()?.life(),
+            (Leading::Scaled | Leading::Formula, _) | (_, None) => self.leading_factors()?.life(),
         }
     }
 

@@ -161,7 +161,7 @@ impl App {
                 let all = self.run.setup.plan_text.lines().count() + self.run.setup.left_out.len();
                 3 * (all + self.cautions().len())
             }
-            _ => KEYS.len(),
+            Overlay::None | Overlay::Help | Overlay::Scene | Overlay::Lessons => KEYS.len(),
         };
         self.view.scroll = if action == Action::ChooseNext {
             (self.view.scroll + 1).min(last as u16)

@@ -322,8 +322,8 @@ impl App {
     /// The fault to show over the screen, unless it was closed.
     pub fn fault(&self) -> Option<&str> {
         match &self.run.status.health {
-            Health::Failed(reason) if !self.run.fault_read => Some(reason),
-            _ => None,
+            Health::Failed(reason) => (!self.run.fault_read).then_some(reason.as_str()),
+            Health::Running | Health::Finished => None,
         }
     }
 

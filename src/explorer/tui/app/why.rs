@@ -12,7 +12,7 @@ use crate::tui::dial::Dial;
 use crate::tui::kinds::Leading;
 use crate::tui::units::sig;
 use asperity_engine::physics::estimate::Factors;
-use asperity_engine::sim::{Frame, Knob};
+use asperity_engine::sim::Frame;
 
 /// The sentence in parts, of which the last ones give way where there is no room.
 #[derive(Debug, Clone, PartialEq)]
@@ -134,10 +134,7 @@ impl App {
     /// `S 0.50→1.00`, `load 800→1600 N`.
     fn turned(&self, dial: &Dial, then: f64) -> String {
         let unit = dial.unit(self.view.units);
-        let shown = |value: f64| match dial.knob {
-            Knob::SlideRoll => format!("{value:.2}"),
-            _ => sig(unit.of(value), 3),
-        };
+        let shown = |value: f64| dial.figure(unit.of(value), 3);
         let text = format!(
             "{} {}→{} {}",
             dial.name(),

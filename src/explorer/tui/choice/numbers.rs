@@ -128,7 +128,12 @@ impl Choice {
             Self::Amplitude(_) => units.height(),
             Self::Wavelength(_) => units.length(),
             Self::Drawn(drawn) => drawn.unit(units),
-            _ => Unit::new("", 1.0),
+            Self::SlideRoll
+            | Self::Preset
+            | Self::Lay(_)
+            | Self::Measure
+            | Self::Model
+            | Self::Nodes => Unit::new("", 1.0),
         }
     }
 

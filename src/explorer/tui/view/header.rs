@@ -66,7 +66,7 @@ fn state(app: &App) -> (&'static str, String, Role) {
         (Health::Running, RunPace::Paused) => (theme.pick("‖ ", "= "), "paused".into(), Role::Warn),
         (Health::Running, RunPace::Running) => match app.frame().map(|frame| frame.stage) {
             Some(Stage::Passage) => (theme.pick("● ", "* "), "live".into(), Role::Good),
-            _ => (theme.pick("○ ", "o "), "starting".into(), Role::Warn),
+            Some(Stage::StartUp) | None => (theme.pick("○ ", "o "), "starting".into(), Role::Warn),
         },
     }
 }

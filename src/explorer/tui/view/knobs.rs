@@ -10,7 +10,7 @@ use crate::tui::action::Action;
 use crate::tui::app::{App, PanelKind};
 use crate::tui::dial::{Dial, DialState};
 use crate::tui::theme::Role;
-use crate::tui::units::{sig, tick};
+use crate::tui::units::tick;
 use crate::tui::view::areas::{Areas, PanelSpacing};
 use crate::tui::view::chart::Symbol;
 use crate::tui::view::panel::{panel, title};
@@ -84,7 +84,7 @@ fn typical(app: &App, dial: &Dial, slot: Rect, buffer: &mut Buffer) {
     let mut line = Line::default();
     for (n, (value, of)) in dial.typical.iter().enumerate() {
         let digit = theme.span((n + 1).to_string(), Role::Key);
-        let shown = figure(dial, unit.of(*value), 2);
+        let shown = dial.figure(unit.of(*value), 2);
         let of = if of.is_empty() { "" } else { &format!(" {of}") };
         let words = theme.span(format!(" {shown}{of}  "), Role::Dim);
         if line.width() + 1 + words.width() > usize::from(room.width) {
@@ -145,10 +145,10 @@ fn value_line(app: &App, dial: &Dial) -> Line<'static> {
     }
     let unit = dial.unit(app.view.units);
     let digits = if dial.knob == Knob::SlideRoll { 2 } else { 3 };
-    let target = figure(dial, unit.of(dial.target), digits);
+    let target = dial.figure(unit.of(dial.target), digits);
     let mut line = Line::default();
     if dial.is_moving() {
-        let now = figure(dial, unit.of(dial.now), digits);
+        let now = dial.figure(unit.of(dial.now), digits);
         let arrow = theme.pick("→", ">");
         line.push_span(Span::styled(
             format!("{now}{arrow}"),
@@ -160,14 +160,6 @@ fn value_line(app: &App, dial: &Dial) -> Line<'static> {
         line.push_span(theme.span(format!(" {}", unit.name), Role::Dim));
     }
     line
-}
-
-/// S and the heights keep their two decimals, so that they do not jump about.
-fn figure(dial: &Dial, value: f64, digits: i32) -> String {
-    match dial.knob {
-        Knob::SlideRoll => format!("{value:.2}"),
-        _ => sig(value, digits),
-    }
 }
 
 fn slider(app: &App, place: usize, dial: &Dial, track: Rect, buffer: &mut Buffer) {

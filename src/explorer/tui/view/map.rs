@@ -85,9 +85,10 @@ pub(super) fn render(app: &App, areas: &Areas, buffer: &mut Buffer) -> Option<Pi
 /// The cells that the map fills.
 pub(super) fn room(app: &App, areas: &Areas) -> Option<Rect> {
     let frame = app.frame()?;
-    let area = match app.view.map {
-        MapKind::Profile => profile::rooms(areas.inside(PanelKind::Map)).0,
-        _ => MapRoom::of(app, frame, areas).image,
+    let area = if app.view.map == MapKind::Profile {
+        profile::rooms(areas.inside(PanelKind::Map)).0
+    } else {
+        MapRoom::of(app, frame, areas).image
     };
     (!area.is_empty()).then_some(area)
 }
@@ -267,7 +268,13 @@ fn point_at(app: &App, frame: &Frame) -> Option<(f64, f64)> {
         MapKind::Stress => point.depth_m / frame.a_m,
         // Now is the last row.
         MapKind::PressureWaves | MapKind::FilmWaves => -1e-9,
-        _ => 0.0,
+        MapKind::Pressure
+        | MapKind::Film
+        | MapKind::Fringes
+        | MapKind::Contact
+        | MapKind::Roughness
+        | MapKind::Temperature
+        | MapKind::Profile => 0.0,
     };
     Some((point.sample.x_m / frame.a_m, y))
 }

@@ -90,7 +90,13 @@ fn down(app: &App, frame: &Frame) -> Down {
             name: "a",
             per_window: 4.0,
         },
-        _ => Down {
+        MapKind::Pressure
+        | MapKind::Film
+        | MapKind::Fringes
+        | MapKind::Contact
+        | MapKind::Roughness
+        | MapKind::Temperature
+        | MapKind::Profile => Down {
             name: "y/b",
             per_window: 1.0,
         },

@@ -58,7 +58,7 @@ impl MapPainter<'_> {
     fn color(&self, theme: Theme, column: usize, row: usize) -> Color {
         match self.tint(column, row) {
             tint @ Tint::Share(_) if !self.is_lit(column, row) => color(theme, self.look, tint),
-            _ => self
+            Tint::Blank | Tint::Plain(_) | Tint::Share(_) => self
                 .rgb(column, row)
                 .map_or(Color::Reset, |rgb| theme.rgb(rgb)),
         }
@@ -110,7 +110,14 @@ impl MapPainter<'_> {
             MapKind::Contact if self.is_edge(column, row) => "o",
             MapKind::Contact => Theme::map_ink(0.3 * share),
             MapKind::Fringes => fringe_ink(self.raster.fringe(column, row)),
-            _ => Theme::map_ink(inked(self.look, share)),
+            MapKind::Pressure
+            | MapKind::Film
+            | MapKind::Roughness
+            | MapKind::Temperature
+            | MapKind::Stress
+            | MapKind::PressureWaves
+            | MapKind::FilmWaves
+            | MapKind::Profile => Theme::map_ink(inked(self.look, share)),
         }
     }
 }
@@ -238,9 +245,10 @@ pub(super) fn color_bar(theme: Theme, look: &Look, kind: MapKind, bar: Rect, buf
     } else {
         letters(strip, buffer, |_, row| {
             let value = value(2 * row);
-            match kind {
-                MapKind::Fringes => fringe_ink(fringe(value as f32, 0.0)),
-                _ => Theme::map_ink(inked(look, look.share(value))),
+            if kind == MapKind::Fringes {
+                fringe_ink(fringe(value as f32, 0.0))
+            } else {
+                Theme::map_ink(inked(look, look.share(value)))
             }
         });
     }
