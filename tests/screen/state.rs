@@ -15,7 +15,7 @@ use asperity_engine::sim::{AgePoint, Knob};
 use asperity_explorer::tui::action::Action;
 use asperity_explorer::tui::app::{App, Effect, ErrandKind, Leading};
 use asperity_explorer::tui::event::PointerAct;
-use asperity_explorer::tui::lessons::{FILES, Lesson};
+use asperity_explorer::tui::lessons::{ComparedWith, FILES, Lesson};
 use asperity_explorer::tui::view;
 use asperity_session::run::{Command, Settled};
 use asperity_session::sweep::Along;
@@ -319,7 +319,7 @@ fn every_lesson_is_played_by_the_mouse() {
             }
         }
     };
-    let mut asked = 0;
+    let (mut asked, mut waited) = (0, 0);
     for (place, (name, file)) in FILES.into_iter().enumerate() {
         let lesson = Lesson::from_toml(file, name).unwrap();
         let mut app = running(plain());
@@ -355,9 +355,22 @@ fn every_lesson_is_played_by_the_mouse() {
                 let next = app.apply(Action::NextBeat);
                 stage(&mut app, next);
             }
+            if text(&app, 160, 48).contains(&of) && beat + 1 < lesson.beats.len() {
+                // What is compared with this waits until this is known, or will not be.
+                let asks = lesson.beats[beat + 1].question.as_ref();
+                assert!(asks.is_some_and(|asks| asks.measure.over == ComparedWith::Before));
+                waited += 1;
+                let steps = (6.0 * shown.passages * 128.0) as u64;
+                play(&mut app, 1..=steps + 1, &State::default());
+                if text(&app, 160, 48).contains(&of) {
+                    let next = app.apply(Action::NextBeat);
+                    stage(&mut app, next);
+                }
+            }
         }
     }
     assert!(asked >= 15, "{asked}");
+    assert!(waited >= 3, "{waited}");
 }
 
 #[test]

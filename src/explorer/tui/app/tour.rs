@@ -8,7 +8,9 @@ use super::state::App;
 use crate::tui::action::Action;
 use crate::tui::dial::Dial;
 use crate::tui::kinds::{CurveKind, Overlay, RunPace};
-use crate::tui::lessons::{FoundAnswer, Lesson, TourPhase, TourState};
+use crate::tui::lessons::{
+    ComparedWith, FoundAnswer, Lesson, LessonQuestion, TourPhase, TourState,
+};
 use asperity_session::run::Command;
 
 impl App {
@@ -82,6 +84,10 @@ impl App {
         };
         let tells = tour.beat().question.is_some() && tour.is_shown(passages);
         match tour.phase {
+            TourPhase::Shows if tour.beat().question.is_none() && self.is_awaited(tour) => {
+                self.say("what comes next is compared with this: it has not settled yet");
+                Vec::new()
+            }
             TourPhase::Asks => self.answer(None),
             TourPhase::Shows if tells => match self.not_yet(tour) {
                 Some(why) => {
@@ -168,6 +174,18 @@ impl App {
     fn is_turning(&self) -> bool {
         let far = |dial: &Dial| (dial.now - dial.target).abs() > 1e-6 * dial.target.abs();
         self.choice.dials.iter().any(far)
+    }
+
+    /// Whether the next question compares with what this beat shows, which has not come to a number yet.
+    fn is_awaited(&self, tour: &TourState) -> bool {
+        let next = tour.lesson.beats.get(tour.beat + 1);
+        let asked = next.and_then(|beat| beat.question.as_ref());
+        let base = asked.filter(|asked| asked.measure.over == ComparedWith::Before);
+        let is_known = |of: &LessonQuestion| {
+            let value = self.frame().and_then(|frame| of.measure.of.of(frame));
+            value.is_some() && self.not_yet(tour).is_none()
+        };
+        !tour.is_overdue(self.passages()) && base.is_some_and(|of| !is_known(of))
     }
 
     /// Whether the surfaces have not come to the age that the scene asks for.
