@@ -83,6 +83,21 @@ impl MapKind {
         matches!(self, Self::PressureWaves | Self::FilmWaves)
     }
 
+    /// What runs down it.
+    pub(crate) fn downwards(self) -> Downwards {
+        match self {
+            Self::Stress => Downwards::Depth,
+            Self::PressureWaves | Self::FilmWaves => Downwards::Time,
+            Self::Pressure
+            | Self::Film
+            | Self::Fringes
+            | Self::Contact
+            | Self::Roughness
+            | Self::Temperature
+            | Self::Profile => Downwards::Across,
+        }
+    }
+
     /// Whether it shows the plane of the contact: x and y.
     pub(crate) fn is_plane(self) -> bool {
         !matches!(
@@ -94,6 +109,17 @@ impl MapKind {
     pub(crate) fn shifted(self, by: i32) -> Self {
         shifted(&Self::ALL, self, by)
     }
+}
+
+/// What runs down a map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Downwards {
+    /// y.
+    Across,
+    /// z.
+    Depth,
+    /// Passages.
+    Time,
 }
 
 /// How much of the plane the map and the centre-line figure show.

@@ -15,6 +15,7 @@ use ratatui::layout::{Position, Rect};
 
 use crate::tui::action::Action;
 use crate::tui::app::{App, MapKind, PanelKind, Zoom};
+use crate::tui::kinds::Downwards;
 use crate::tui::kymograph::SHOWN;
 use crate::tui::pixels::{Bitmap, PixelPlot};
 use crate::tui::theme::Role;
@@ -264,17 +265,11 @@ fn image_area(map: MapKind, window: &MapWindow, picture: Rect) -> Rect {
 /// Where the material point is: on the centre line, at its depth, or now.
 fn point_at(app: &App, frame: &Frame) -> Option<(f64, f64)> {
     let point = app.point_now()?;
-    let y = match app.view.map {
-        MapKind::Stress => point.depth_m / frame.a_m,
+    let y = match app.view.map.downwards() {
+        Downwards::Depth => point.depth_m / frame.a_m,
         // Now is the last row.
-        MapKind::PressureWaves | MapKind::FilmWaves => -1e-9,
-        MapKind::Pressure
-        | MapKind::Film
-        | MapKind::Fringes
-        | MapKind::Contact
-        | MapKind::Roughness
-        | MapKind::Temperature
-        | MapKind::Profile => 0.0,
+        Downwards::Time => -1e-9,
+        Downwards::Across => 0.0,
     };
     Some((point.sample.x_m / frame.a_m, y))
 }

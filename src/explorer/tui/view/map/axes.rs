@@ -4,7 +4,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::raster::MapWindow;
-use crate::tui::app::{App, MapKind};
+use crate::tui::app::App;
+use crate::tui::kinds::Downwards;
 use crate::tui::theme::Role;
 use crate::tui::units::tick;
 use crate::tui::view::chart::Plot;
@@ -80,23 +81,17 @@ struct Down {
 }
 
 fn down(app: &App, frame: &Frame) -> Down {
-    match app.view.map {
-        MapKind::Stress => Down {
+    match app.view.map.downwards() {
+        Downwards::Depth => Down {
             name: app.view.units.length().name,
             per_window: app.view.units.length().of(frame.a_m),
         },
         // The window counts passages of 4a.
-        MapKind::PressureWaves | MapKind::FilmWaves => Down {
+        Downwards::Time => Down {
             name: "a",
             per_window: 4.0,
         },
-        MapKind::Pressure
-        | MapKind::Film
-        | MapKind::Fringes
-        | MapKind::Contact
-        | MapKind::Roughness
-        | MapKind::Temperature
-        | MapKind::Profile => Down {
+        Downwards::Across => Down {
             name: "y/b",
             per_window: 1.0,
         },
