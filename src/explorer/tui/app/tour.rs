@@ -85,7 +85,7 @@ impl App {
         let tells = tour.beat().question.is_some() && tour.is_shown(passages);
         match tour.phase {
             TourPhase::Shows if tour.beat().question.is_none() && self.is_awaited(tour) => {
-                self.say("what comes next is compared with this: a passage of it first");
+                self.say("what comes next is compared with this: it has not settled yet");
                 Vec::new()
             }
             TourPhase::Asks => self.answer(None),
@@ -176,15 +176,14 @@ impl App {
         self.choice.dials.iter().any(far)
     }
 
-    /// Whether the next question compares with what this beat shows, which has not made a passage or has no number yet.
+    /// Whether the next question compares with what this beat shows, which has not come to a number yet.
     fn is_awaited(&self, tour: &TourState) -> bool {
         let next = tour.lesson.beats.get(tour.beat + 1);
         let asked = next.and_then(|beat| beat.question.as_ref());
         let base = asked.filter(|asked| asked.measure.over == ComparedWith::Before);
         let is_known = |of: &LessonQuestion| {
             let value = self.frame().and_then(|frame| of.measure.of.of(frame));
-            let moves = self.is_turning() || self.is_ageing();
-            value.is_some() && !moves && tour.shown_for(self.passages()) >= 1.0
+            value.is_some() && self.not_yet(tour).is_none()
         };
         !tour.is_overdue(self.passages()) && base.is_some_and(|of| !is_known(of))
     }

@@ -105,21 +105,16 @@ impl TourState {
         self.read_from = now;
     }
 
-    /// Passages that it has been shown for.
-    pub fn shown_for(&self, passages: f64) -> f64 {
-        passages - self.since
-    }
-
     /// Whether all of it was shown at so many passages.
     pub fn is_shown(&self, passages: f64) -> bool {
-        self.shown_for(passages) >= self.beat().passages
+        passages - self.since >= self.beat().passages
     }
 
     /// Whether so many passages are far more than it takes.
     pub fn is_overdue(&self, passages: f64) -> bool {
         /// Times its own: averages that have not settled by then are not waited for.
         const PATIENCE: f64 = 6.0;
-        self.shown_for(passages) >= PATIENCE * self.beat().passages
+        passages - self.since >= PATIENCE * self.beat().passages
     }
 
     /// Whether its words have been read.
