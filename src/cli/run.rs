@@ -9,8 +9,7 @@ use asperity_engine::observe::{Claim, ObserveError, Overwrite, leftovers, stoppe
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{ContactKind, Scene};
 use asperity_session::run::{
-    Checkpoint, Command, Companion, End, Ending, Outcome, Request, Session, asks_for_no_phase,
-    hangs_on_oil_law, over_oil_laws, over_phases,
+    Assumed, Checkpoint, Command, Companion, End, Ending, Outcome, Request, Session,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -232,13 +231,18 @@ fn vary_what_nobody_knows(
     let (End::Done, Some(summary)) = (&outcome.end, &mut outcome.summary) else {
         return;
     };
-    if asks_for_no_phase(scene) {
-        tell("S = 0 and no phase is asked for: eight runs on the first mesh for the band");
-        over_phases(scene, plan, threads, summary, interrupt);
-    }
-    if hangs_on_oil_law(scene, plan) {
-        tell("the oil is sheared: four runs on the first mesh for the range over its laws");
-        over_oil_laws(scene, plan, threads, summary, interrupt);
+    for what in Assumed::ALL {
+        if what.moves(scene, plan) {
+            tell(match what {
+                Assumed::Phase => {
+                    "S = 0 and no phase is asked for: eight runs on the first mesh for the band"
+                }
+                Assumed::OilLaw => {
+                    "the oil is sheared: four runs on the first mesh for the range over its laws"
+                }
+            });
+            what.vary(scene, plan, threads, summary, interrupt);
+        }
     }
 }
 

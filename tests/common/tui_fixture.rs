@@ -454,6 +454,7 @@ pub(crate) fn found(slide_roll: f64, entrainment_m_s: f64, life: f64) -> Found {
             load_n: 800.0,
             amplitude_m: [2.0e-7; 2],
         },
+        choice: 0,
         began: CaseStart::Warm,
         life: Some([0.5 * life, life, 2.0 * life]),
         other: Some(0.4 * life),

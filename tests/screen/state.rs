@@ -11,14 +11,14 @@ use crate::common::tui_fixture::{
 };
 use asperity_engine::math::number::sig;
 use asperity_engine::scene::{CycleBasis, Event, Scene, Surface};
-use asperity_engine::sim::{AgePoint, Knob};
+use asperity_engine::sim::{AgePoint, CautionCode, Knob};
 use asperity_explorer::tui::action::Action;
 use asperity_explorer::tui::app::{App, Effect, ErrandKind, Leading};
 use asperity_explorer::tui::event::PointerAct;
 use asperity_explorer::tui::lessons::{ComparedWith, FILES, Lesson};
 use asperity_explorer::tui::view;
-use asperity_session::run::{Command, Settled};
-use asperity_session::sweep::Along;
+use asperity_session::run::{Assumed, Command, Settled};
+use asperity_session::sweep::{Along, Found, Varied};
 use ratatui::layout::Rect;
 
 /// The run hears of a knob one step later than the screen, and until then it still tells of the orbit that the
@@ -581,7 +581,7 @@ fn a_curve_is_filled_in_when_it_is_shown() {
     let mut app = running(plain());
     let ordered = |effects: &[Effect]| {
         let orders = effects.iter().filter_map(|effect| match effect {
-            Effect::Sweep(order) => Some((order.along, order.values.clone())),
+            Effect::Sweep(order) => Some((order.varied, order.values.clone())),
             _ => None,
         });
         orders.collect::<Vec<_>>()
@@ -590,7 +590,8 @@ fn a_curve_is_filled_in_when_it_is_shown() {
         state: Some(state()),
         ..settled(&State::default())
     });
-    let [(Along::SlideRoll, values)] = &ordered(&app.take_settled(Some(orbit)))[..] else {
+    let [(Varied::Along(Along::SlideRoll), values)] = &ordered(&app.take_settled(Some(orbit)))[..]
+    else {
         panic!("no order");
     };
     assert!(values.contains(&0.0) && values.contains(&-1.75) && !values.contains(&0.5));
@@ -600,16 +601,96 @@ fn a_curve_is_filled_in_when_it_is_shown() {
         [],
         "friction comes with it"
     );
-    let [(Along::Entrainment, speeds)] = &ordered(&app.apply(Action::Curve))[..] else {
+    let [(Varied::Along(Along::Entrainment), speeds)] = &ordered(&app.apply(Action::Curve))[..]
+    else {
         panic!("no order");
     };
     // Four to a decade around the scene's own speed, which the run has.
     assert_eq!(speeds.len(), 8);
     assert!(speeds.contains(&0.1) && speeds.contains(&10.0));
-    let [(Along::SlideRoll, rest)] = &ordered(&app.apply(Action::Curve))[..] else {
+    let [(Varied::Along(Along::SlideRoll), rest)] = &ordered(&app.apply(Action::Curve))[..] else {
         panic!("no order");
     };
     assert_eq!(rest.len(), values.len() - 1, "what is there is kept");
+}
+
+/// On the last mesh, once the curve is done: the life at other phases of surfaces that roll, until a knob is turned.
+#[test]
+fn what_the_scene_assumes_is_varied_after_the_last_mesh() {
+    let rolls = State {
+        slide_roll: 0.0,
+        slide_roll_target: 0.0,
+        ..State::default()
+    };
+    let mut rolling = scene();
+    rolling.motion.slide_roll = 0.0;
+    let mut app = App::new(setup_of(rolling), vec![ErrandKind::Rebuild], plain());
+    play(&mut app, 1..=96, &rolls);
+    let orders = |effects: &[Effect]| {
+        let orders = effects.iter().filter_map(|effect| match effect {
+            Effect::Sweep(order) => Some((order.varied, order.values.len())),
+            _ => None,
+        });
+        orders.collect::<Vec<_>>()
+    };
+    let on_mesh = |is_last| {
+        let mut settled = settled(&rolls);
+        for frame in &mut settled.frames {
+            Arc::make_mut(frame).grounds.has_life = true;
+        }
+        Some(Arc::new(Settled {
+            state: Some(state()),
+            is_last,
+            ..settled
+        }))
+    };
+    let [(Varied::Along(Along::SlideRoll), all)] = orders(&app.take_settled(on_mesh(false)))[..]
+    else {
+        panic!("no curve");
+    };
+    let done = |all| Some((all, all));
+    app.take_swept(Vec::new(), Some((0, all)));
+    let swept = app.take_swept(Vec::new(), done(all));
+    assert_eq!(orders(&swept), [], "the mesh is not the last");
+    let phases = (Varied::Assumed(Assumed::Phase), 8);
+    assert_eq!(orders(&app.take_settled(on_mesh(true))), [phases]);
+    app.take_swept(Vec::new(), Some((0, 8)));
+    assert!(text(&app, 200, 48).contains("sweeping phases 0/8"));
+    let frame = Arc::clone(app.frame().unwrap());
+    let own = frame.metrics.life.unwrap();
+    let life = own.life_relative;
+    // This mesh is a tenth off, which the band holds beside the phases.
+    let lives = [1.0, 0.9, 0.8, 0.7, 0.5, 0.7, 1.5, 1.1].map(|times| 1.1 * life * times);
+    let lives = lives.into_iter().enumerate().map(|(choice, life)| Found {
+        choice,
+        ..found(0.0, 1.0, life)
+    });
+    let points = app.simulated(Along::SlideRoll).count();
+    let then = app.take_swept(lives.collect(), done(8));
+    assert_eq!(orders(&then), [], "nothing else is assumed here");
+    assert_eq!(app.simulated(Along::SlideRoll).count(), points);
+    let told = |app: &App| {
+        let cautions = app.cautions();
+        let mut phases = cautions
+            .iter()
+            .filter(|one| one.code == CautionCode::PhaseLocked);
+        phases.next().unwrap().text.clone()
+    };
+    let words = format!("life {} to {} as", sig(0.5 * life, 3), sig(1.5 * life, 3));
+    assert!(told(&app).starts_with(&words), "{}", told(&app));
+    let band = format!(
+        "{}–{}",
+        sig(0.5 / 1.1 * own.life_relative_low, 2),
+        sig(1.5 * 1.1 * own.life_relative_high, 2)
+    );
+    let screen = text(&app, 160, 48);
+    assert!(screen.contains(&band), "{band}: {screen}");
+    app.apply(Action::Turn(1));
+    app.apply(Action::Turn(-1));
+    let mut again = settled(&rolls);
+    Arc::make_mut(&mut again.frames[0]).grounds.has_life = true;
+    app.take_frame(Arc::clone(&again.frames[0]));
+    assert!(told(&app).starts_with("S = 0"), "{}", told(&app));
 }
 
 #[test]

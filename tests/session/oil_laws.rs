@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::phases::{cold, run, scene};
 use asperity_engine::plan::Plan;
-use asperity_session::run::{hangs_on_oil_law, over_oil_laws};
+use asperity_session::run::Assumed;
 
 /// What the ends may be off, as a factor: the first mesh has seven nodes a wave, and is off by 1.2 in the life itself, its band
 /// being 1.7 either way.
@@ -27,7 +27,10 @@ fn the_first_mesh_knows_what_the_oil_does_to_the_life() {
         let oil = own.lubricant.as_ref().unwrap();
         assert_eq!(oil.eyring_stress_pa, stress_pa, "{preset}");
         let mut summary = run(&own, &plan);
-        over_oil_laws(&own, &plan, 2, &mut summary, &AtomicBool::new(false)).unwrap();
+        let stop = AtomicBool::new(false);
+        Assumed::OilLaw
+            .vary(&own, &plan, 2, &mut summary, &stop)
+            .unwrap();
         let laws = [
             "lubricant.eyring_flow=secant".to_owned(),
             format!("lubricant.eyring_stress_pa={}", 0.5 * stress_pa),
@@ -59,8 +62,8 @@ fn a_life_that_hangs_on_no_law_has_no_range() {
     ] {
         let own = scene("demonstration_quick", sets);
         let plan = Plan::new(&own).unwrap();
-        assert!(!hangs_on_oil_law(&own, &plan), "{sets:?}");
+        assert!(!Assumed::OilLaw.moves(&own, &plan), "{sets:?}");
     }
     let own = scene("demonstration_quick", &[]);
-    assert!(hangs_on_oil_law(&own, &Plan::new(&own).unwrap()));
+    assert!(Assumed::OilLaw.moves(&own, &Plan::new(&own).unwrap()));
 }

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
 use asperity_engine::sim::{Simulation, Summary};
-use asperity_session::run::{Ending, Request, Session, over_phases};
+use asperity_session::run::{Assumed, AssumedRange, Ending, Request, Session};
 
 pub(crate) fn scene(preset: &str, sets: &[&str]) -> Arc<Scene> {
     let sets: Vec<Override> = sets.iter().map(|text| text.parse().unwrap()).collect();
@@ -38,6 +38,15 @@ pub(crate) fn cold(preset: &str, sets: &[&str], key: &str) -> f64 {
     sim.summary().life_relative.unwrap()
 }
 
+fn over_phases(
+    scene: &Arc<Scene>,
+    plan: &Plan,
+    summary: &mut Summary,
+    stops: bool,
+) -> Option<AssumedRange> {
+    Assumed::Phase.vary(scene, plan, 2, summary, &AtomicBool::new(stops))
+}
+
 #[test]
 fn the_band_of_rolling_holds_every_phase() {
     let rolling = ["motion.slide_roll=0", "record=none"];
@@ -58,10 +67,8 @@ fn the_band_of_rolling_holds_every_phase() {
         let plan = Plan::new(&own).unwrap();
         let mut summary = run(&own, &plan);
         let before = [summary.life_relative_low, summary.life_relative_high].map(Option::unwrap);
-        assert_eq!(
-            over_phases(&own, &plan, 2, &mut summary, &AtomicBool::new(false)),
-            Some(8)
-        );
+        assert_eq!(Assumed::Phase.count(), 8);
+        over_phases(&own, &plan, &mut summary, false).unwrap();
         let band = [summary.life_relative_low, summary.life_relative_high].map(Option::unwrap);
         let [low, high] = band;
         // Between those that the band was made of, and on another mesh.
@@ -98,7 +105,7 @@ fn a_phase_that_is_asked_for_and_surfaces_that_slide_have_no_other() {
         let mut summary = Summary::default();
         let plan = Plan::new(&own).unwrap();
         assert_eq!(
-            over_phases(&own, &plan, 2, &mut summary, &AtomicBool::new(false)),
+            over_phases(&own, &plan, &mut summary, false),
             None,
             "{sets:?}"
         );
@@ -112,9 +119,6 @@ fn a_phase_that_is_asked_for_and_surfaces_that_slide_have_no_other() {
     };
     let before = summary.clone();
     let plan = Plan::new(&own).unwrap();
-    assert_eq!(
-        over_phases(&own, &plan, 2, &mut summary, &AtomicBool::new(true)),
-        None
-    );
+    assert_eq!(over_phases(&own, &plan, &mut summary, true), None);
     assert_eq!(summary, before);
 }

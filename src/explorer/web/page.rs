@@ -198,11 +198,9 @@ impl WebPage {
         };
         let slide_roll = sig(app.target(Knob::SlideRoll), 3);
         let mut words = format!("{life} S {slide_roll}, load {}.", sig(app.load_n(), 3));
-        let cautions = app.frame().map(|frame| frame.cautions());
         words.extend(
-            cautions
+            app.cautions()
                 .iter()
-                .flatten()
                 .map(|caution| format!(" {}.", caution.text)),
         );
         words
@@ -399,12 +397,7 @@ mod tests {
     #[test]
     fn cautions_are_spoken() {
         let mut page = page("nodes=65\nstress.depths=8\ntime.step_nodes=2\nstress.depth_max_a=1.2");
-        let said = |page: &WebPage| {
-            page.explorer
-                .app
-                .frame()
-                .map_or_else(Vec::new, |frame| frame.cautions())
-        };
+        let said = |page: &WebPage| page.explorer.app.cautions();
         until(&mut page, "roughness", |page| {
             said(page)
                 .iter()

@@ -11,7 +11,7 @@
 //! ```
 //! Without threads the owner makes the turns of the same loop itself: [`Cooperative`].
 
-mod beside;
+mod assumed;
 mod checkpoint;
 mod climbing;
 mod clock;
@@ -23,14 +23,13 @@ mod driver;
 mod errors;
 mod handle;
 mod ladder;
-mod oil_laws;
 mod outcome;
 mod outputs;
-mod phases;
 mod request;
 mod session;
 mod settled;
 
+pub use assumed::{Assumed, AssumedRange};
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use clock::Clock;
 pub use command::{AppliedCommand, Command, HandTurn};
@@ -41,10 +40,8 @@ pub use driver::LoopTurn;
 pub use errors::NoEstimate;
 pub use handle::{RunHandle, Status};
 pub use ladder::{Climb, Ladder, Mesh};
-pub use oil_laws::{hangs_on_oil_law, over_oil_laws};
 pub use outcome::{End, Outcome, Unconverged};
 pub use outputs::{Activity, Switch, Watcher, WatcherStatus};
-pub use phases::{asks_for_no_phase, over_phases};
 pub use request::{Ending, Request};
 pub use session::{RunError, Session};
 pub use settled::Settled;

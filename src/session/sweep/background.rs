@@ -1,4 +1,4 @@
-//! Lives at other S, or friction at other speeds, computed beside a run that has settled: the cases of a sweep
+//! Lives at other S, friction at other speeds, lives with what a scene must assume assumed otherwise, computed beside a run that has settled: the cases of a sweep
 //! ([`super::case`]), started from the run instead of from a file.
 //!
 //! ```text
@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::case::{Case, CaseEnd, CaseRecord, CaseStart, Neighbour, RunningCase, Until};
 use super::spec::ChainKeys;
-use crate::run::Settled;
+use crate::run::{Assumed, Settled};
 use asperity_engine::scene::{CycleBasis, Scene};
 use asperity_engine::sim::State;
 
@@ -54,11 +54,43 @@ impl Along {
     }
 }
 
+/// What a sweep varies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Varied {
+    /// What a curve is drawn along.
+    Along(Along),
+    /// A choice by its number, 0 the scene's own.
+    Assumed(Assumed),
+}
+
+impl Varied {
+    fn of(self, scene: &Scene) -> f64 {
+        match self {
+            Self::Along(along) => along.of(scene),
+            Self::Assumed(_) => 0.0,
+        }
+    }
+
+    fn put(self, scene: &mut Scene, value: f64) {
+        match self {
+            Self::Along(along) => along.put(scene, value),
+            Self::Assumed(what) => what.choose(self.choice(value), scene),
+        }
+    }
+
+    fn choice(self, value: f64) -> usize {
+        match self {
+            Self::Along(_) => 0,
+            Self::Assumed(_) => value as usize,
+        }
+    }
+}
+
 /// What to compute.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveOrder {
     /// What varies.
-    pub along: Along,
+    pub varied: Varied,
     /// Its values, in any order.
     pub values: Vec<f64>,
     /// All else: the scene with its knobs where they are now.
@@ -121,6 +153,8 @@ pub struct CurvePoint {
 pub struct Found {
     /// Where.
     pub at: CurvePoint,
+    /// Which choice of what is assumed; 0: the scene's own.
+    pub choice: usize,
     /// From Hertz, or from a neighbour.
     pub began: CaseStart,
     /// Relative life with its band: low, value, high. `None`: the scene computes none.
@@ -163,18 +197,18 @@ impl Background {
 
     fn manned(ground: Ground, order: CurveOrder, workers: usize) -> (Self, Vec<SweepWorker>) {
         let CurveOrder {
-            along,
+            varied,
             mut values,
             mut scene,
         } = order;
         ground.carry(&mut scene);
-        let near = along.of(&scene);
+        let near = varied.of(&scene);
         values.sort_by(|one, two| (one - near).abs().total_cmp(&(two - near).abs()));
         let all = values.len();
         let (sender, found) = channel();
         let (up, down) = values.into_iter().partition(|value| *value >= near);
         let work = Arc::new(SharedWork {
-            along,
+            varied,
             scene,
             ground,
             sides: Mutex::new([up, down]),
@@ -228,7 +262,7 @@ fn take_next(sides: &mut Sides, side: usize) -> Option<(usize, f64)> {
 /// What the workers share.
 #[derive(Debug)]
 struct SharedWork {
-    along: Along,
+    varied: Varied,
     scene: Scene,
     ground: Ground,
     sides: Mutex<Sides>,
@@ -252,6 +286,7 @@ pub struct SweepWorker {
 /// The case of one value.
 struct ValueCase {
     case: Case,
+    choice: usize,
     running: RunningCase,
     /// Whether it is tried a second time, from Hertz.
     is_second: bool,
@@ -284,20 +319,21 @@ impl SweepWorker {
             self.before = self.work.ground.start();
         }
         let mut scene = self.work.scene.clone();
-        self.work.along.put(&mut scene, value);
+        self.work.varied.put(&mut scene, value);
         match Case::new(0, scene, CHAIN) {
-            Ok(case) => self.begin(case, false),
+            Ok(case) => self.begin(case, self.work.varied.choice(value), false),
             // What is no scene has no life; the next value may be one.
             Err(_) => drop(self.work.done.fetch_add(1, Ordering::Relaxed)),
         }
         true
     }
 
-    fn begin(&mut self, case: Case, is_second: bool) {
+    fn begin(&mut self, case: Case, choice: usize, is_second: bool) {
         let before = self.before.as_ref().filter(|_| !is_second);
         self.under_way = Some(ValueCase {
             running: RunningCase::begin(&case, before, Until::Settled(MOST), 1),
             case,
+            choice,
             is_second,
         });
     }
@@ -306,12 +342,17 @@ impl SweepWorker {
         let (record, state) = value.running.end();
         // A live run's grid need not be that of a scene with its knobs turned.
         if record.end == CaseEnd::Stalled && self.before.is_some() && !value.is_second {
-            self.begin(value.case, true);
+            self.begin(value.case, value.choice, true);
             return true;
         }
         let scene = value.case.scene;
         let converged = record.end == CaseEnd::Converged;
-        if converged && self.found.send(found(&scene, &record)).is_err() {
+        if converged
+            && self
+                .found
+                .send(found(&scene, &record, value.choice))
+                .is_err()
+        {
             return false;
         }
         // A case in trouble is no start; the run itself is one.
@@ -331,7 +372,7 @@ impl SweepWorker {
     }
 }
 
-fn found(scene: &Scene, record: &CaseRecord) -> Found {
+fn found(scene: &Scene, record: &CaseRecord, choice: usize) -> Found {
     let summary = &record.summary;
     let band = summary.life_relative_low.zip(summary.life_relative_high);
     Found {
@@ -341,6 +382,7 @@ fn found(scene: &Scene, record: &CaseRecord) -> Found {
             load_n: summary.load_n,
             amplitude_m: [&scene.body_1, &scene.body_2].map(|body| body.surface.amplitude_m()),
         },
+        choice,
         began: record.began,
         life: summary
             .life_relative

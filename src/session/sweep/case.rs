@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::error::SweepError;
 use super::spec::{ChainKeys, Sweep};
 use super::window::window;
-use crate::run::{Clock, asks_for_no_phase, over_phases};
+use crate::run::{Assumed, Clock};
 use asperity_engine::plan::{OtherFilms, Plan, PlanError, TimeDependence};
 use asperity_engine::scene::{CycleBasis, Scene, Surface};
 use asperity_engine::sim::{SimError, Simulation, State, Summary};
@@ -129,10 +129,13 @@ impl Case {
         threads: usize,
         stop: &AtomicBool,
     ) {
-        if record.end == CaseEnd::Converged && asks_for_no_phase(&self.scene) {
-            let began = Clock::start();
-            let scene = Arc::new(self.scene.clone());
-            over_phases(&scene, &self.plan, threads, &mut record.summary, stop);
+        if record.end != CaseEnd::Converged {
+            return;
+        }
+        let began = Clock::start();
+        let scene = Arc::new(self.scene.clone());
+        let range = Assumed::Phase.vary(&scene, &self.plan, threads, &mut record.summary, stop);
+        if range.is_some() {
             record.seconds += began.elapsed_s();
         }
     }

@@ -37,7 +37,9 @@ mod window;
 mod work;
 
 pub use axis::{MOST_CASES, VariedKey, WARM};
-pub use background::{Along, Background, CurveOrder, CurvePoint, Found, Ground, SweepWorker};
+pub use background::{
+    Along, Background, CurveOrder, CurvePoint, Found, Ground, SweepWorker, Varied,
+};
 pub use case::{CaseEnd, CaseRecord, CaseStart};
 pub use chain::{ChainList, Shard};
 pub use cold::{ColdComparison, against_cold};

@@ -5,11 +5,16 @@
 //! points that agree with the knobs in all else, so that a knob that is turned empties it at once, and fills it
 //! again when it is turned back.
 
+use std::sync::Arc;
+
 use super::data::Effect;
 use super::state::App;
 use crate::tui::kinds::CurveKind;
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::Scene;
 use asperity_engine::sim::{Knob, Metrics};
-use asperity_session::sweep::{Along, CurveOrder, CurvePoint, Found};
+use asperity_session::run::{Assumed, AssumedRange};
+use asperity_session::sweep::{Along, CurveOrder, CurvePoint, Found, Varied};
 
 /// Values of S that a sweep visits, of either sign: close where life falls fastest.
 const SWEPT: [f64; 10] = [0.0, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75];
@@ -98,9 +103,13 @@ impl App {
         let under_way = progress.filter(|(done, all)| done < all);
         let was_under_way = std::mem::replace(&mut self.lives.sweep, under_way).is_some();
         for point in found {
-            self.keep_point(point);
+            match self.lives.sweeping {
+                Varied::Along(_) => self.keep_point(point),
+                Varied::Assumed(_) => self.keep_otherwise(&point),
+            }
         }
         if was_under_way && under_way.is_none() {
+            self.conclude_otherwise();
             self.begin_sweep()
         } else {
             Vec::new()
@@ -129,16 +138,66 @@ impl App {
             values = self.bends().into_iter().filter(is_new).collect();
         }
         if values.is_empty() {
-            return Vec::new();
+            return self.begin_otherwise();
         }
         self.lives.swept.extend(&values);
-        self.lives.sweeping = along;
+        // What this one ends is asked for again after it.
+        self.lives.assumed.retain(|(_, range)| range.is_some());
         let scene = self.scene_now();
+        self.order(Varied::Along(along), values, scene)
+    }
+
+    fn order(&mut self, varied: Varied, values: Vec<f64>, scene: Scene) -> Vec<Effect> {
+        self.lives.sweeping = varied;
         vec![Effect::Sweep(Box::new(CurveOrder {
-            along,
+            varied,
             values,
             scene,
         }))]
+    }
+
+    /// Once the curve and the last mesh are done: the lives with the next thing that the scene assumes assumed otherwise.
+    fn begin_otherwise(&mut self) -> Vec<Effect> {
+        let is_last = (self.replay.settled.as_ref()).is_some_and(|settled| settled.is_last);
+        if !is_last || self.lives.sweep.is_some() {
+            return Vec::new();
+        }
+        let scene = Arc::new(self.scene_now());
+        let Ok(plan) = Plan::new(&scene) else {
+            return Vec::new();
+        };
+        let asked = |what: &Assumed| self.lives.assumed.iter().any(|(old, _)| old == what);
+        let mut open = Assumed::ALL.into_iter().filter(|what| !asked(what));
+        let Some(what) = open.find(|what| what.moves(&scene, &plan)) else {
+            return Vec::new();
+        };
+        self.lives.assumed.push((what, None));
+        self.lives.otherwise = vec![None; what.count()];
+        let values = (0..what.count()).map(|k| k as f64).collect();
+        self.order(Varied::Assumed(what), values, Arc::unwrap_or_clone(scene))
+    }
+
+    fn keep_otherwise(&mut self, found: &Found) {
+        if let Some(place) = self.lives.otherwise.get_mut(found.choice) {
+            *place = found.life.map(|[_, life, _]| life);
+        }
+    }
+
+    /// What a sweep over a choice has come to, once it has ended.
+    fn conclude_otherwise(&mut self) {
+        let Varied::Assumed(what) = self.lives.sweeping else {
+            return;
+        };
+        let range = AssumedRange::of(&std::mem::take(&mut self.lives.otherwise));
+        if let Some(place) = (self.lives.assumed.iter_mut()).find(|(one, _)| *one == what) {
+            place.1 = range;
+        }
+    }
+
+    /// What is known of the life over the choices of what the scene assumes.
+    pub(super) fn assumed(&self, what: Assumed) -> Option<AssumedRange> {
+        let mut known = self.lives.assumed.iter();
+        known.find(|(one, _)| *one == what)?.1
     }
 
     /// Values within the knob's range.

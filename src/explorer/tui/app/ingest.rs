@@ -156,6 +156,7 @@ impl App {
         let friction = self.lives.friction.add(metrics.friction_coefficient);
         self.keep_point(Found {
             at: conditions(metrics),
+            choice: 0,
             began: CaseStart::Warm,
             life: Some([
                 life.life_relative_low,

@@ -3,9 +3,11 @@
 use super::state::{App, point_of};
 use crate::tui::dial::Dial;
 use crate::tui::kinds::Leading;
+use crate::tui::units::sig;
 use asperity_engine::physics::estimate::{Anchor, Factors, OperatingPoint};
 use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::{Caution, Frame, LifeEstimate, Stage};
+use asperity_session::run::Assumed;
 
 impl App {
     /// Of the surfaces of now: as the last block found them where they age.
@@ -14,11 +16,44 @@ impl App {
         worn.or(frame.metrics.lambda_ratio)
     }
 
-    /// What to know before trusting the frame's numbers, the weightiest first.
+    /// What to know before trusting the frame's numbers, the weightiest first; of what the scene assumes the range, once it is
+    /// known.
     pub fn cautions(&self) -> Vec<Caution> {
-        self.frame()
+        let mut cautions = self
+            .frame()
             .filter(|frame| frame.stage == Stage::Passage)
-            .map_or_else(Vec::new, |frame| frame.cautions())
+            .map_or_else(Vec::new, |frame| frame.cautions());
+        for caution in &mut cautions {
+            if let Some((what, [low, high])) = self.life_over(caution) {
+                let over = match what {
+                    Assumed::Phase => {
+                        "as the crests of both bodies happen to meet, of which nothing is asked (phase_deg); the band holds it"
+                    }
+                    Assumed::OilLaw => {
+                        "with the other law of flow of sheared oil (lubricant.eyring_flow), half and twice its Eyring stress"
+                    }
+                };
+                caution.text = format!("life {} to {} {over}", sig(low, 3), sig(high, 3));
+            }
+        }
+        cautions
+    }
+
+    /// What the scene assumes as a caution says, and the simulated life over its choices, once they are known.
+    pub(crate) fn life_over(&self, caution: &Caution) -> Option<(Assumed, [f64; 2])> {
+        let what = (Assumed::ALL.into_iter()).find(|what| what.caution() == caution.code)?;
+        let life = self.life()?.life_relative;
+        Some((what, self.assumed(what)?.of_life(life)))
+    }
+
+    /// The band of the simulated life; it holds the phases once they are known.
+    pub(crate) fn life_band(&self) -> Option<[f64; 2]> {
+        let life = self.life()?;
+        let band = [life.life_relative_low, life.life_relative_high];
+        Some(match self.assumed(Assumed::Phase) {
+            Some(range) => range.of_band(life.life_relative, band),
+            None => band,
+        })
     }
 
     /// Which number leads: what was simulated, where that holds for where the knobs are.

@@ -117,6 +117,7 @@ impl App {
         // Whether one goes on is known one drawing later only: what it finds would be of the old knobs.
         self.lives.sweep = None;
         self.lives.swept.clear();
+        self.lives.assumed.clear();
         effects.push(Effect::EndSweep);
         effects
     }

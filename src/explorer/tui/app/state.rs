@@ -23,8 +23,8 @@ use asperity_engine::physics::estimate::{Anchor, Estimate, EstimateBasis, Loaded
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{AgePoint, Frame, Knob, LifeEstimate};
 use asperity_picture::{Ranges, Scope};
-use asperity_session::run::Settled;
-use asperity_session::sweep::{Along, Found};
+use asperity_session::run::{Assumed, AssumedRange, Settled};
+use asperity_session::sweep::{Along, Found, Varied};
 
 /// The screen's state.
 #[derive(Debug, Clone)]
@@ -106,9 +106,13 @@ pub(crate) struct LivesState {
     /// Values done and in all, while a sweep is under way.
     pub(crate) sweep: Option<(usize, usize)>,
     /// What it goes along.
-    pub(crate) sweeping: Along,
+    pub(crate) sweeping: Varied,
     /// Values that sweeps were asked for since a knob was turned.
     pub(super) swept: Vec<f64>,
+    /// Lives with what is assumed assumed otherwise, as a sweep finds them.
+    pub(super) otherwise: Vec<Option<f64>>,
+    /// What they come to; `None`: under way, or not all of them got through.
+    pub(super) assumed: Vec<(Assumed, Option<AssumedRange>)>,
 }
 
 /// A passage that repeats, and the material point.
@@ -384,8 +388,10 @@ impl LivesState {
             friction: SettledMean::default(),
             film: SettledMean::default(),
             sweep: None,
-            sweeping: Along::default(),
+            sweeping: Varied::Along(Along::default()),
             swept: Vec::new(),
+            otherwise: Vec::new(),
+            assumed: Vec::new(),
         }
     }
 }

@@ -14,6 +14,7 @@ use crate::tui::theme::Role;
 use crate::tui::view::chart::{CurvePanel, Pen, Plot, Symbol};
 use crate::tui::view::place::{columns_from, put, put_middle, put_right, rows, rows_from};
 use along::CurveFigure;
+use asperity_session::sweep::Varied;
 
 /// Rows from which a curve can be read, with its heading and its axis.
 const CURVE_ROWS: u16 = 7;
@@ -122,7 +123,7 @@ fn heading(app: &App, figure: &CurveFigure, area: Rect, buffer: &mut Buffer) {
         legend(["form. ", sim], short)
     };
     put(area, 0, &heading, buffer);
-    let Some((done, all)) = app.lives.sweep else {
+    let (Some((done, all)), Varied::Along(_)) = (app.lives.sweep, app.lives.sweeping) else {
         return;
     };
     let text = format!("{}{done}/{all}", theme.pick("↻ ", "@ "));

@@ -16,7 +16,8 @@ use asperity_engine::scene::CycleBasis;
 use asperity_engine::sim::{
     CATALOGUE, Frame, LubricationRegime, Metrics, Quantity, Reading, Rhythm, Stage, named,
 };
-use asperity_session::sweep::Along;
+use asperity_session::run::Assumed;
+use asperity_session::sweep::{Along, Varied};
 
 /// Words and their roles, in the order in which they are dropped from the right.
 type StatusWords = Vec<(String, Role)>;
@@ -171,10 +172,12 @@ fn not_converged(app: &App, trouble: Trouble) -> String {
 }
 
 /// The letter of what a sweep goes along.
-fn swept(along: Along) -> &'static str {
-    match along {
-        Along::SlideRoll => "S",
-        Along::Entrainment => "U",
+fn swept(varied: Varied) -> &'static str {
+    match varied {
+        Varied::Along(Along::SlideRoll) => "S",
+        Varied::Along(Along::Entrainment) => "U",
+        Varied::Assumed(Assumed::Phase) => "phases",
+        Varied::Assumed(Assumed::OilLaw) => "laws of the oil",
     }
 }
 

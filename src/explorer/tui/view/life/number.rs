@@ -143,9 +143,8 @@ fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
         sig_or_dash(app.lives.estimate.formula.life(), 2)
     );
     let formula = theme.span(formula, Role::Formula);
-    let parts = match (app.leading(), app.life()) {
-        (Leading::Simulated, Some(life)) => {
-            let (low, high) = (life.life_relative_low, life.life_relative_high);
+    let parts = match (app.leading(), app.life_band()) {
+        (Leading::Simulated, Some([low, high])) => {
             let band = theme.span(band(low, high), Role::Text);
             let source = source(app, " ");
             let mesh = theme.span(mesh(app), Role::Dim);
@@ -160,8 +159,8 @@ fn provenance(app: &App, width: u16, beside: Beside) -> Line<'static> {
             };
             vec![name, band, formula]
         }
-        (leading, life) => {
-            let settling = match life {
+        (leading, _) => {
+            let settling = match app.life() {
                 Some(_) if leading == Leading::Settling => match beside {
                     Beside::Source => mesh(app) + "not settled",
                     Beside::Nothing => mesh(app),

@@ -6,9 +6,10 @@ use ratatui::text::Line;
 
 use crate::tui::app::{App, Leading};
 use crate::tui::theme::Role;
-use crate::tui::units::sig_or_dash;
+use crate::tui::units::{sig, sig_or_dash};
 use crate::tui::view::place::{fitting, put, put_right};
 use asperity_engine::sim::{Caution, CautionCode};
+use asperity_session::run::Assumed;
 
 /// The weightiest caution, and how many more there are behind `i`: in its own words where they fit, else by its name.
 pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
@@ -29,7 +30,9 @@ pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
     let taken = if row.width < BESIDE { FORMULA } else { 0 };
     let room = usize::from(row.width).saturating_sub(more.len() + 2 + taken);
     let text = theme.words(&first.text);
-    let text = fitting([text.as_str(), name(first)], room).unwrap_or(name(first));
+    let range = range(app, first);
+    let short = range.as_deref().unwrap_or(name(first));
+    let text = fitting([text.as_str(), short], room).unwrap_or(name(first));
     let line = Line::from(vec![
         theme.span(format!("{mark}{text}"), role),
         theme.span(more, Role::Key),
@@ -52,6 +55,16 @@ pub(super) fn line(app: &App, row: Rect, buffer: &mut Buffer) {
 const FORMULA: usize = 13;
 /// Columns in which the formula's number stands beside the simulation's band.
 const BESIDE: u16 = 32;
+
+/// The life over what a caution says is assumed, once it is known.
+fn range(app: &App, caution: &Caution) -> Option<String> {
+    let (what, [low, high]) = app.life_over(caution)?;
+    let what = match what {
+        Assumed::Phase => "phases",
+        Assumed::OilLaw => "oil's law",
+    };
+    Some(format!("{what} {}–{}", sig(low, 2), sig(high, 2)))
+}
 
 /// A caution in a few letters.
 fn name(caution: &Caution) -> &'static str {

@@ -1,0 +1,198 @@
+//! What a scene must assume because nobody knows it of a machine: which crest meets which where surfaces roll, and by which law
+//! oil flows that is sheared beyond its Eyring stress. The life over the other choices, on the coarsest mesh that carries the waves.
+//!
+//! ```text
+//! r_k = life(choice k)/life(the scene's)          one mesh
+//! range = life · min(1, r) … life · max(1, r)
+//! band over phases = life_low · min(1, r)/ε … life_high · max(1, r)·ε     ε: what this mesh is off at the scene's own
+//! ```
+//! Phases: of body 1, k·45 degrees; only where the scene asks for none: both `phase_deg` are 0. Who wants crest on crest writes
+//! 360. Laws of the oil: the other law of flow, half and twice the Eyring stress. A factor of two either way is an assumption:
+//! mineral oils are given 2 to 10 MPa.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::crew::share_out;
+use super::ladder::Ladder;
+use asperity_engine::plan::Plan;
+use asperity_engine::scene::{EyringFlow, Lubricant, Rheology, Scene, Surface};
+use asperity_engine::sim::{CautionCode, Simulation, Summary};
+
+/// Phases of body 1 beside the scene's, degrees.
+const PHASES: [f64; 7] = [45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0];
+/// Laws of the oil beside the scene's.
+const LAWS: [fn(&mut Lubricant); 3] = [other_flow, half, twice];
+
+/// A choice that a scene must make and nobody can.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Assumed {
+    /// Where the crests of one body stand to those of the other, at S = 0.
+    Phase,
+    /// How sheared oil flows.
+    OilLaw,
+}
+
+impl Assumed {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Phase, Self::OilLaw];
+
+    /// Whether the life of a run hangs on it. On the oil's law alone one does whose run is long beside the lives of these:
+    /// it climbs to a finer mesh.
+    pub fn moves(self, scene: &Arc<Scene>, plan: &Plan) -> bool {
+        let rolls = scene.motion.slide_roll == 0.0;
+        let has_one_life = scene.age.is_none() && scene.life.is_some() && scene.events.is_empty();
+        has_one_life
+            && match self {
+                Self::Phase => rolls && scene.surfaces().into_iter().all(has_open_phase),
+                Self::OilLaw => {
+                    let oil = scene.lubricant.as_ref();
+                    !rolls
+                        && oil.is_some_and(|oil| oil.rheology == Rheology::Eyring)
+                        && plan.has_flow()
+                        && Ladder::of(scene, plan).meshes().len() > 1
+                }
+            }
+    }
+
+    /// The caution that says so.
+    pub fn caution(self) -> CautionCode {
+        match self {
+            Self::Phase => CautionCode::PhaseLocked,
+            Self::OilLaw => CautionCode::OilLaw,
+        }
+    }
+
+    /// How many choices there are with the scene's own.
+    pub fn count(self) -> usize {
+        1 + match self {
+            Self::Phase => PHASES.len(),
+            Self::OilLaw => LAWS.len(),
+        }
+    }
+
+    /// Makes choice `k` in a scene; 0 is the scene's own.
+    pub fn choose(self, k: usize, scene: &mut Scene) {
+        let Some(k) = k.checked_sub(1) else { return };
+        match self {
+            Self::Phase => {
+                if let Surface::Sinusoid { phase_deg, .. } = &mut scene.body_1.surface {
+                    *phase_deg = PHASES[k];
+                }
+            }
+            Self::OilLaw => {
+                if let Some(oil) = &mut scene.lubricant {
+                    LAWS[k](oil);
+                }
+            }
+        }
+    }
+
+    /// Gives a finished run's life its range over the choices; its band holds the phases. `None`: it hangs on none, not all of
+    /// them get through, or somebody said stop.
+    pub fn vary(
+        self,
+        scene: &Arc<Scene>,
+        plan: &Plan,
+        threads: usize,
+        summary: &mut Summary,
+        stop: &AtomicBool,
+    ) -> Option<AssumedRange> {
+        if !self.moves(scene, plan) {
+            return None;
+        }
+        let ladder = Ladder::of(scene, plan);
+        let mut scenes = vec![(*ladder.meshes()[0].scene).clone(); self.count()];
+        for (k, scene) in scenes.iter_mut().enumerate() {
+            self.choose(k, scene);
+        }
+        let lives = share_out(&scenes, threads, |scene| life(scene, stop), &mut |_, _| {});
+        let range = AssumedRange::of(&lives)?;
+        let life = summary.life_relative?;
+        let [low, high] = range.of_life(life).map(Some);
+        match self {
+            Self::Phase => {
+                (summary.life_phases_low, summary.life_phases_high) = (low, high);
+                let band = summary.life_relative_low.zip(summary.life_relative_high);
+                let band = band.map(|(low, high)| range.of_band(life, [low, high]));
+                summary.life_relative_low = band.map(|[low, _]| low);
+                summary.life_relative_high = band.map(|[_, high]| high);
+                *summary = std::mem::take(summary).with_cycles_band();
+            }
+            Self::OilLaw => (summary.life_oil_low, summary.life_oil_high) = (low, high),
+        }
+        Some(range)
+    }
+}
+
+/// What the other choices do to a life.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AssumedRange {
+    /// The life with the scene's own choice, on the mesh of all of them.
+    own: f64,
+    /// Least and greatest r.
+    ratios: [f64; 2],
+}
+
+impl AssumedRange {
+    /// Of the lives by choice, the scene's own first; `None`: one is missing.
+    pub fn of(lives: &[Option<f64>]) -> Option<Self> {
+        let own = (*lives.first()?)?;
+        let mut ratios = [1.0, 1.0];
+        for life in lives {
+            let ratio = (*life)? / own;
+            ratios = [f64::min(ratios[0], ratio), f64::max(ratios[1], ratio)];
+        }
+        Some(Self { own, ratios })
+    }
+
+    /// Of a life with the scene's own choice, on whatever mesh.
+    pub fn of_life(self, life: f64) -> [f64; 2] {
+        self.ratios.map(|ratio| life * ratio)
+    }
+
+    /// Of such a life's band, which is to hold all choices.
+    pub fn of_band(self, life: f64, [low, high]: [f64; 2]) -> [f64; 2] {
+        let off = (life / self.own).ln().abs().exp();
+        let [least, most] = self.ratios;
+        [low * least / off, high * most * off]
+    }
+}
+
+fn has_open_phase(surface: &Surface) -> bool {
+    match surface {
+        Surface::Sinusoid {
+            amplitude_m,
+            phase_deg,
+            ..
+        } => *amplitude_m > 0.0 && *phase_deg == 0.0 && surface.varies_along_x(),
+        Surface::Smooth {} | Surface::Random(_) | Surface::HeightMap { .. } => false,
+    }
+}
+
+fn other_flow(oil: &mut Lubricant) {
+    oil.eyring_flow = match oil.eyring_flow {
+        EyringFlow::Secant => EyringFlow::AlongAcross,
+        EyringFlow::AlongAcross => EyringFlow::Secant,
+    };
+}
+
+fn half(oil: &mut Lubricant) {
+    oil.eyring_stress_pa /= 2.0;
+}
+
+fn twice(oil: &mut Lubricant) {
+    oil.eyring_stress_pa *= 2.0;
+}
+
+/// `None`: it does not get through, or somebody said stop.
+fn life(scene: &Scene, stop: &AtomicBool) -> Option<f64> {
+    let mut sim = Simulation::new(scene, Plan::new(scene).ok()?, 1).ok()?;
+    while !sim.is_done() {
+        sim.step().ok()?;
+        if stop.load(Ordering::Relaxed) {
+            return None;
+        }
+    }
+    sim.summary().life_relative
+}
