@@ -70,7 +70,7 @@ pub extern "C" fn drop_file(columns: u32, rows: u32, cell_width: u32, cell_heigh
 /// Same with a measured surface that was dropped: the file's name, a line end, its bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn drop_map(columns: u32, rows: u32, cell_width: u32, cell_height: u32) -> u32 {
-    let shown = on_page(|page| (page.scene(), page.nodes)).unwrap_or_default();
+    let shown = on_page(|page| (page.scene(), page.nodes())).unwrap_or_default();
     let opened = INBOX.with_borrow(|inbox| with_map(shown, inbox));
     take(
         opened.and_then(WebPage::open),

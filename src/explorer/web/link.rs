@@ -14,7 +14,7 @@ use asperity_engine::scene::{
 };
 
 /// Nodes per side of the finest mesh unless asked for: a page has one thread, and climbs to it from the first life on.
-pub(super) const NODES: usize = 129;
+const NODES: usize = 129;
 /// Maximum number of nodes per side in a page.
 const MAX_NODES: usize = 257;
 /// Maximum size of a link or file, bytes.
@@ -146,13 +146,13 @@ pub(super) fn with_map(
     })
 }
 
-/// The scene on so many nodes, or on as many more as it needs and has; and its plan.
-pub(super) fn on_nodes(scene: &Scene, nodes: usize) -> Result<(Scene, Plan), String> {
+/// The scene on so many nodes, `None`: on the page's or its own fewer ones, or on as many more as it needs and has; and its plan.
+pub(super) fn on_nodes(scene: &Scene, nodes: Option<usize>) -> Result<(Scene, Plan), String> {
     let own = scene.grid.nodes.min(MAX_NODES);
     let mut scene = scene.clone();
     // No recorder here.
     scene.record = None;
-    let mut nodes = nodes;
+    let mut nodes = nodes.unwrap_or(NODES.min(own));
     loop {
         scene.grid.nodes = nodes;
         match Plan::new(&scene) {
@@ -425,7 +425,16 @@ mod tests {
             let scene = PageLink::read(&format!("scene={}", preset.name))
                 .unwrap()
                 .scene;
-            let (on_page, _) = on_nodes(&scene, NODES).unwrap();
+            let mut few = scene.clone();
+            few.grid.nodes = 65;
+            // Who asks for fewer nodes gets them.
+            let few = on_nodes(&few, None).ok();
+            assert!(
+                few.is_none_or(|(few, _)| few.grid.nodes == 65),
+                "{}",
+                preset.name
+            );
+            let (on_page, _) = on_nodes(&scene, None).unwrap();
             let nodes = on_page.grid.nodes;
             assert!(
                 (NODES..=scene.grid.nodes.clamp(NODES, MAX_NODES)).contains(&nodes),

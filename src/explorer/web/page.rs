@@ -13,7 +13,7 @@ use ratatui::layout::Rect;
 
 use super::cells::changed;
 use super::curves::written as written_curves;
-use super::link::{NODES, PageLink, on_nodes, written};
+use super::link::{PageLink, on_nodes, written};
 use super::rows::KeptRows;
 use crate::tui::event::ScreenEvent;
 use crate::tui::pixels::Medium;
@@ -45,8 +45,6 @@ pub(super) struct WebPage {
     run: Rc<RefCell<PageRun>>,
     beside: PageSweep,
     files: Files,
-    /// Of its finest mesh.
-    pub(super) nodes: usize,
     /// Keys of the link, until another scene is run.
     keys: Rc<RefCell<String>>,
     shown: Buffer,
@@ -61,7 +59,7 @@ pub(super) struct WebPage {
 impl WebPage {
     /// Opens what a link asks for.
     pub(super) fn open(link: PageLink) -> Result<Self, String> {
-        let nodes = link.nodes.unwrap_or(NODES);
+        let nodes = link.nodes;
         let files = Files::default();
         let (run, setup) = start(&link.scene, &link.name, nodes, Ending::OnStop)?;
         let run = Rc::new(RefCell::new(run));
@@ -92,7 +90,6 @@ impl WebPage {
             run,
             beside,
             files,
-            nodes,
             keys,
             shown: Buffer::default(),
             cell: (8, 16),
@@ -221,12 +218,17 @@ impl WebPage {
 
     /// The link to what is shown now.
     pub(super) fn link(&self) -> String {
-        written(&self.explorer.app, self.nodes, &self.keys.borrow())
+        written(&self.explorer.app, self.nodes(), &self.keys.borrow())
     }
 
     /// The table of the run's last steps.
     pub(super) fn table(&self) -> String {
         self.run.borrow().rows.csv()
+    }
+
+    /// Of its finest mesh.
+    pub(super) fn nodes(&self) -> usize {
+        self.explorer.app.run.setup.scene.grid.nodes
     }
 
     /// The scene as it now is.
@@ -245,8 +247,7 @@ impl WebPage {
 
 /// A run of so many steps without a screen: its table, and a last line with the counters of its work.
 pub(super) fn measured(link: &PageLink, steps: u64) -> Result<String, String> {
-    let nodes = link.nodes.unwrap_or(NODES);
-    let (mut run, _) = start(&link.scene, &link.name, nodes, Ending::Steps(steps))?;
+    let (mut run, _) = start(&link.scene, &link.name, link.nodes, Ending::Steps(steps))?;
     while matches!(run.session.turn(), LoopTurn::Stepped) {}
     let counters = run.session.stats();
     let counters = serde_json::to_string(&counters).map_err(|e| e.to_string())?;
@@ -256,7 +257,7 @@ pub(super) fn measured(link: &PageLink, steps: u64) -> Result<String, String> {
 fn start(
     scene: &Scene,
     name: &str,
-    nodes: usize,
+    nodes: Option<usize>,
     ending: Ending,
 ) -> Result<(PageRun, Setup), String> {
     let (scene, plan) = on_nodes(scene, nodes)?;
