@@ -135,9 +135,10 @@ pub struct AssumedRange {
 }
 
 impl AssumedRange {
-    /// Of the lives by choice, the scene's own first; `None`: one is missing.
+    /// Of the lives by choice, the scene's own first; `None`: one is missing, or there is nothing to compare with: the own life is
+    /// 0 or has no end.
     pub fn of(lives: &[Option<f64>]) -> Option<Self> {
-        let own = (*lives.first()?)?;
+        let own = lives.first()?.filter(|own| own.is_normal())?;
         let mut ratios = [1.0, 1.0];
         for life in lives {
             let ratio = (*life)? / own;
@@ -195,4 +196,38 @@ fn life(scene: &Scene, stop: &AtomicBool) -> Option<f64> {
         }
     }
     sim.summary().life_relative
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_is_that_of_the_ratios_and_holds_what_the_mesh_is_off() {
+        let range = AssumedRange::of(&[Some(0.5), Some(0.25), Some(0.75)]).expect("all there");
+        let [low, high] = range.of_life(0.4);
+        assert!((low - 0.2).abs() < 1e-12 && (high - 0.6).abs() < 1e-12);
+        // The mesh is off by 0.5/0.4.
+        let [low, high] = range.of_band(0.4, [0.36, 0.44]);
+        assert!(
+            (low - 0.36 * 0.5 / 1.25).abs() < 1e-12 && (high - 0.44 * 1.5 * 1.25).abs() < 1e-12
+        );
+        // Its own choice is one of them.
+        let above = AssumedRange::of(&[Some(0.5), Some(0.75)]).expect("all there");
+        assert_eq!(above.of_life(1.0), [1.0, 1.5]);
+    }
+
+    #[test]
+    fn what_cannot_be_compared_has_no_range() {
+        let none: [&[Option<f64>]; 5] = [
+            &[],
+            &[None, Some(1.0)],
+            &[Some(1.0), None],
+            &[Some(0.0), Some(1.0)],
+            &[Some(f64::INFINITY), Some(1.0)],
+        ];
+        for lives in none {
+            assert_eq!(AssumedRange::of(lives), None, "{lives:?}");
+        }
+    }
 }

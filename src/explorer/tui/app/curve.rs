@@ -156,7 +156,8 @@ impl App {
         }))]
     }
 
-    /// Once the curve and the last mesh are done: the lives with the next thing that the scene assumes assumed otherwise.
+    /// Once the curve and the last mesh are done: the lives with the next thing assumed otherwise of which a caution says that the
+    /// scene assumes it.
     fn begin_otherwise(&mut self) -> Vec<Effect> {
         let is_last = (self.replay.settled.as_ref()).is_some_and(|settled| settled.is_last);
         if !is_last || self.lives.sweep.is_some() {
@@ -167,7 +168,9 @@ impl App {
             return Vec::new();
         };
         let asked = |what: &Assumed| self.lives.assumed.iter().any(|(old, _)| old == what);
-        let mut open = Assumed::ALL.into_iter().filter(|what| !asked(what));
+        let cautions = self.cautions();
+        let is_said = |what: &Assumed| cautions.iter().any(|one| one.code == what.caution());
+        let mut open = (Assumed::ALL.into_iter()).filter(|what| is_said(what) && !asked(what));
         let Some(what) = open.find(|what| what.moves(&scene, &plan)) else {
             return Vec::new();
         };
