@@ -5,8 +5,10 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What results depend on: the engine, the sweeps, and what both are made with.
-const SOURCES: [&str; 3] = ["../../Cargo.lock", "../engine", "sweep"];
+/// What results depend on: the engine, the loop of a run, the sweeps, and what they are made with.
+const SOURCES: [&str; 4] = ["../../Cargo.lock", "../engine", "run", "sweep"];
+/// What stands among it and changes no number.
+const BESIDE: [&str; 2] = ["../engine/README.md", "../engine/examples"];
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
@@ -40,8 +42,11 @@ fn compiler() -> Vec<u8> {
     output.map(|output| output.stdout).unwrap_or_default()
 }
 
-/// All files at or below a path.
+/// All files at or below a path, but what is beside.
 fn gather(path: &Path, files: &mut Vec<PathBuf>) {
+    if BESIDE.iter().any(|beside| Path::new(beside) == path) {
+        return;
+    }
     if !path.is_dir() {
         files.push(path.to_owned());
         return;

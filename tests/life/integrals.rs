@@ -3,7 +3,7 @@
 
 use asperity_engine::physics::cycles::{BodyId, Kinematics, miner_part};
 use asperity_engine::physics::fatigue::LifeLaw;
-use asperity_engine::physics::life_models::{CycleProfile, DEPTH_EXPONENT, LifeEquation};
+use asperity_engine::physics::life_models::{CycleProfile, LifeEquation};
 use asperity_engine::scene::StressMeasure;
 use asperity_engine::solve::critical::shares_of_slice;
 use asperity_engine::solve::life::{Shares, factors};
@@ -378,7 +378,7 @@ fn models_of_one_depth_know_hertz() {
         (f64::from(by_depth[k]), spec.depths[k])
     };
     let (tau, z) = greatest(LifeEquation::LundbergPalmgren {
-        depth_exponent: DEPTH_EXPONENT,
+        depth_exponent: 7.0 / 3.0,
         cut_off: 0.05,
     });
     println!("orthogonal shear {tau:.4} p_h near z = {z:.3} a");

@@ -54,7 +54,10 @@ fn compared(name: &str, scene: &Scene, steps: u64, load: f64) -> usize {
                 kept.step().unwrap();
                 renewed.step().unwrap();
             } else {
-                renewed.renew_work().unwrap();
+                let (state, stats) = (renewed.save(), *renewed.stats());
+                renewed = made();
+                renewed.restore(&state).unwrap();
+                renewed.count_from(stats).unwrap();
             }
             kept.fill(&mut one);
             renewed.fill(&mut two);

@@ -61,9 +61,6 @@ pub enum LifeEquation {
     },
 }
 
-/// h of Lundberg and Palmgren.
-pub const DEPTH_EXPONENT: f64 = 7.0 / 3.0;
-
 impl LifeEquation {
     /// Exponent of a volume integral over stress, and the limit; `None` for models without one.
     pub fn stress_law(self, law: LifeLaw) -> Option<(f64, f64)> {
@@ -196,7 +193,7 @@ mod tests {
         // (31/3 + 2 − 7/3)/(10/9)/3. Line contact, p ∝ load^{1/2}: with its fourth power.
         let law = LifeLaw::default();
         let model = LifeEquation::LundbergPalmgren {
-            depth_exponent: DEPTH_EXPONENT,
+            depth_exponent: 7.0 / 3.0,
             cut_off: 0.05,
         };
         let s = model.pressure_exponent(law, 2.0).unwrap_or(f64::NAN);
@@ -211,7 +208,7 @@ mod tests {
         let zaretsky = LifeEquation::Zaretsky.pressure_exponent(law, 2.0);
         assert_relative_eq!(zaretsky.unwrap_or(f64::NAN), 31.0 / 3.0 + 2.7);
         let limited = LifeEquation::IoannidesHarris {
-            depth_exponent: DEPTH_EXPONENT,
+            depth_exponent: 7.0 / 3.0,
             cut_off: 0.05,
             limit: 0.4,
         };

@@ -92,6 +92,12 @@ impl Roughness {
         self.reliefs[body].is_some()
     }
 
+    /// Whether its heights are those of this grid's nodes; smooth bodies are on every grid.
+    pub(super) fn is_on(&self, grid: &Grid) -> bool {
+        let fits = |heights: &Vec<f64>| heights.is_empty() || heights.len() == grid.len();
+        self.heights.iter().all(fits)
+    }
+
     /// Moves body `body` to where its `travel` has brought it, with amplitude `amplitude` (film units).
     pub(super) fn place(&mut self, grid: &Grid, body: usize, travel: BodyTravel, amplitude: f64) {
         let out = &mut self.heights[body];

@@ -344,15 +344,4 @@ impl Simulation {
         self.stats = stats;
         Ok(())
     }
-
-    /// Throws the workspace away and makes it anew, which may be done between any two steps: no result changes by a bit.
-    ///
-    /// # Errors
-    /// As [`Simulation::new`], which has made one like it.
-    pub fn renew_work(&mut self) -> Result<(), SimError> {
-        let pool = Arc::clone(&self.work.pool);
-        self.work = Work::new(&self.plan, self.state.nodes, pool)?;
-        see_again(&self.plan, &self.state, &mut self.work);
-        Ok(())
-    }
 }

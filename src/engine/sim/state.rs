@@ -37,7 +37,12 @@ pub(super) enum Phase {
     /// Smooth, with this many steps to go on the present grid.
     Smooth { left: u64 },
     /// In the wake of a neighbour: this many long steps, then so many of the usual length.
-    Settle { coarse: u64, fine: u64 },
+    Settle {
+        #[serde(rename = "coarse")]
+        long: u64,
+        #[serde(rename = "fine")]
+        usual: u64,
+    },
     /// Sliding and roughness come up.
     Develop { left: u64 },
     /// The passage.

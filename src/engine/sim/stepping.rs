@@ -142,19 +142,14 @@ pub(super) fn place_surfaces(
     (yielded, worn): (Option<&Yielded>, Option<&Worn>),
 ) {
     let grid = &solver.grid;
-    // Roughness is made for the finest grid; on the coarser ones of the start-up there is none yet.
-    if roughness
-        .heights
-        .iter()
-        .any(|heights| !heights.is_empty() && heights.len() != grid.len())
-    {
+    let amplitudes = amplitudes(scaling, drive);
+    // Roughness is made for the finest grid; a start-up comes up to it smooth.
+    if !roughness.is_on(grid) {
+        assert_eq!(amplitudes, [0.0; 2], "rough on a grid that carries none");
         solver.gap.copy_from_slice(&solver.macroscopic);
         return;
     }
-    let now = motion
-        .of_bodies()
-        .into_iter()
-        .zip(amplitudes(scaling, drive));
+    let now = motion.of_bodies().into_iter().zip(amplitudes);
     for (body, (travel, amplitude)) in now.enumerate() {
         roughness.place(grid, body, travel, amplitude);
         if let Some(yielded) = yielded {

@@ -1,7 +1,7 @@
 //! What steps are solved with: solvers, rough surfaces on the grid, stress engines, buffers, threads.
 //!
-//! None of it is remembered from step to step in a way that a result could feel: [`super::Simulation::renew_work`] throws
-//! it away between any two steps, and every frame is the same bit for bit (`tests/records/workspace.rs`).
+//! None of it is remembered from step to step in a way that a result could feel: thrown away between any two steps, it leaves
+//! every frame the same bit for bit (`tests/records/workspace.rs`).
 
 use std::sync::Arc;
 

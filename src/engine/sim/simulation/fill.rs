@@ -93,7 +93,7 @@ fn fill_fields(sim: View, frame: &mut Frame) {
     }
 }
 
-/// A field in SI over the whole domain, in the scene's direction; 0 where nothing is stored.
+/// A field in SI over the whole domain, in the scene's direction; 0 where a scene has no such field.
 fn expand(sim: View, from: &[f64], unit: f64, to: &mut Vec<f32>) {
     let (grid, scaling) = (&sim.work.solver.grid, &sim.plan.scaling);
     let rows = match scaling.kind {
@@ -101,16 +101,16 @@ fn expand(sim: View, from: &[f64], unit: f64, to: &mut Vec<f32>) {
         ContactKind::Line => LINE_ROWS,
     };
     to.resize(grid.nx * rows, 0.0);
+    if from.is_empty() {
+        to.fill(0.0);
+        return;
+    }
     for (j, row) in to.chunks_exact_mut(grid.nx).enumerate() {
         let stored = match scaling.kind {
             ContactKind::Point => grid.stored_row(j),
             ContactKind::Line => 0,
         };
         let start = stored * grid.nx;
-        if from.len() < start + grid.nx {
-            row.fill(0.0);
-            continue;
-        }
         for (to, &from) in row.iter_mut().zip(&from[start..start + grid.nx]) {
             *to = (from * unit) as f32;
         }

@@ -26,12 +26,12 @@ use crate::sim::{Knob, SimError, State};
 
 /// Distance at U, in a, in which what entered under the neighbour's conditions leaves all but the end of the contact.
 const FLUSH: f64 = 1.6;
-/// Part of it, in a, at the end, that is stepped as the passage is; before it steps are [`COARSE`] times as
+/// Part of it, in a, at the end, that is stepped as the passage is; before it steps are [`LONG`] times as
 /// long, whose own errors have left the inner contact when the passage begins; with 0.75 the film is still 2 % off
 /// in the mean of the passage.
-const FINE: f64 = 1.1;
-/// Steps of settling over those of the passage.
-pub(super) const COARSE: f64 = 2.0;
+const USUAL: f64 = 1.1;
+/// Long steps of settling over those of the passage.
+pub(super) const LONG: f64 = 2.0;
 /// Knobs that a neighbour may differ in.
 const FREE: [Knob; 3] = Knob::OF_ROUGHNESS_AND_SLIDING;
 /// Speed, in U, at which a surface is led at most.
@@ -84,13 +84,13 @@ pub(super) fn follow(
 }
 
 /// What both surfaces lack of their places after settling.
-fn lead_after(state: &State, work: &Work, plan: &SettlingSteps, goal: [f64; 2]) -> [f64; 2] {
+fn lead_after(state: &State, work: &Work, settling: &SettlingSteps, goal: [f64; 2]) -> [f64; 2] {
     let half = distances(
         &state.drive,
         state.motion.travelled,
-        (plan.coarse, COARSE * plan.dt),
+        (settling.long, LONG * settling.dt),
     );
-    let end = distances(&half.0, half.1, (plan.fine, plan.dt)).1;
+    let end = distances(&half.0, half.1, (settling.usual, settling.dt)).1;
     [0, 1].map(|body: usize| missing(work, body, goal[body] - end[body]))
 }
 
@@ -154,8 +154,8 @@ fn take_over(
 
 /// Steps of settling.
 pub(super) struct SettlingSteps {
-    coarse: u64,
-    fine: u64,
+    long: u64,
+    usual: u64,
     dt: f64,
 }
 
@@ -163,35 +163,35 @@ impl SettlingSteps {
     /// After a walk of so much.
     pub(super) fn new(walk: f64, dt: f64) -> Self {
         Self {
-            coarse: ((walk + FLUSH - FINE) / (COARSE * dt)).ceil() as u64,
-            fine: (FINE / dt).ceil() as u64,
+            long: ((walk + FLUSH - USUAL) / (LONG * dt)).ceil() as u64,
+            usual: (USUAL / dt).ceil() as u64,
             dt,
         }
     }
 
     /// Same of a steady contact, which has no passage in which what long steps have left leaves it: as long as a start-up's
-    /// development, and all but the first of it in short steps.
+    /// development, and all but the first of it in usual steps.
     pub(super) fn of_steady(walk: f64, develop: f64, dt: f64) -> Self {
         Self {
-            coarse: (walk / (COARSE * dt)).ceil() as u64,
-            fine: (develop / dt).ceil() as u64,
+            long: (walk / (LONG * dt)).ceil() as u64,
+            usual: (develop / dt).ceil() as u64,
             dt,
         }
     }
 
     /// In a.
     pub(super) fn length(&self) -> f64 {
-        (COARSE * self.coarse as f64 + self.fine as f64) * self.dt
+        (LONG * self.long as f64 + self.usual as f64) * self.dt
     }
 
     pub(super) fn steps(&self) -> u64 {
-        self.coarse + self.fine
+        self.long + self.usual
     }
 
     pub(super) fn phase(&self) -> Phase {
         Phase::Settle {
-            coarse: self.coarse,
-            fine: self.fine,
+            long: self.long,
+            usual: self.usual,
         }
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn step_smooth(
     if smooth.left == 0 {
         if smooth.nodes == plan.decided.domain.nodes {
             work.smooth = None;
-            take_smooth(plan, state, work, stats, &smooth);
+            measure_reference(plan, state, work, stats, &smooth);
             if plan.hands_on {
                 state.reference = Some(smooth.contact);
             }
@@ -114,7 +114,7 @@ fn advance_smooth(
 
 /// Its integrals become the reference of now, of a run that has climbed to this mesh its own; the slices below the run's
 /// own contact are made again.
-fn take_smooth(
+fn measure_reference(
     plan: &SimPlan,
     state: &mut State,
     work: &mut Work,

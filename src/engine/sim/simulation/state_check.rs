@@ -69,8 +69,8 @@ pub(super) fn check_course(
     let on_finest = saved.nodes == plan.decided.domain.nodes;
     let phase_fits = match saved.phase {
         Phase::Smooth { left } => left <= plan.smooth_steps(saved.nodes, plan.decided.has_flow()),
-        Phase::Settle { coarse, fine } => {
-            on_finest && coarse.max(fine) <= LONGEST_SETTLING * start_up
+        Phase::Settle { long, usual } => {
+            on_finest && long.max(usual) <= LONGEST_SETTLING * start_up
         }
         Phase::Develop { left } => on_finest && left <= start_up,
         Phase::Passage => on_finest,

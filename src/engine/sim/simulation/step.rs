@@ -40,12 +40,12 @@ pub(super) fn step(
                     break;
                 }
             }
-            Phase::Settle { coarse: 0, fine: 0 } => state.phase = Phase::Develop { left: 0 },
-            Phase::Settle { coarse, fine } => {
+            Phase::Settle { long: 0, usual: 0 } => state.phase = Phase::Develop { left: 0 },
+            Phase::Settle { long, usual } => {
                 advance(plan, state, work, stats)?;
                 state.phase = Phase::Settle {
-                    coarse: coarse.saturating_sub(1),
-                    fine: fine - u64::from(coarse == 0),
+                    long: long.saturating_sub(1),
+                    usual: usual - u64::from(long == 0),
                 };
                 break;
             }
@@ -202,8 +202,8 @@ fn advance(
 
 /// How the next step is chosen, and its length in nodes: the start-up keeps to the usual one.
 fn next_step(plan: &SimPlan, state: &State) -> (Stepping, f64) {
-    if let Phase::Settle { coarse: 1.., .. } = state.phase {
-        let nodes = follow::COARSE * plan.stepping.usual();
+    if let Phase::Settle { long: 1.., .. } = state.phase {
+        let nodes = follow::LONG * plan.stepping.usual();
         return (Stepping::Fixed(nodes), nodes);
     }
     if state.phase != Phase::Passage {
