@@ -458,6 +458,7 @@ pub(crate) fn found(slide_roll: f64, entrainment_m_s: f64, life: f64) -> Found {
         began: CaseStart::Warm,
         life: Some([0.5 * life, life, 2.0 * life]),
         other: Some(0.4 * life),
+        smooth: Some(4.0),
         friction: 0.03 + 0.01 / entrainment_m_s,
         lambda: Some(1.08 * entrainment_m_s.powf(0.67)),
     }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use crate::common::keeper::{Kept, kept_request};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene, Surface};
-use asperity_engine::sim::{Follow, Frame, Knob, Simulation, Stage, State};
+use asperity_engine::sim::{Follow, Frame, Knob, Simulation, Stage, State, Summary};
 use asperity_session::run::{
     AppliedCommand, Assumed, AssumedRange, Command, End, Ending, Request, Session, Settled,
 };
@@ -188,20 +188,20 @@ fn swept(made: &Scene, state: State, order: CurveOrder) -> Vec<Found> {
     found
 }
 
-/// Life and friction of a run of its own.
-fn own(scene: &Scene) -> (f64, f64) {
+/// A run of its own.
+fn own(scene: &Scene) -> Summary {
     let plan = Plan::new(scene).unwrap();
     let mut sim = Simulation::new(scene, plan, 1).unwrap();
     while !sim.metrics().life.is_some_and(|life| life.settled) || !sim.is_done() {
         sim.step().unwrap();
     }
-    let summary = sim.summary();
-    (summary.life_relative.unwrap(), summary.friction_coefficient)
+    sim.summary()
 }
 
 fn compare(found: &[Found], scene_at: impl Fn(&Found) -> Scene) {
     for found in found {
-        let (life, friction) = own(&scene_at(found));
+        let own = own(&scene_at(found));
+        let (life, friction) = (own.life_relative.unwrap(), own.friction_coefficient);
         let [low, swept, high] = found.life.unwrap();
         println!(
             "S = {}, U = {}: swept {swept:.4}, own {life:.4}; friction {:.4}, own {friction:.4}",
@@ -211,6 +211,9 @@ fn compare(found: &[Found], scene_at: impl Fn(&Found) -> Scene) {
         // Both are means over whole periods of the same orbit.
         assert!((swept / life - 1.0).abs() < 0.005);
         assert!((found.friction - friction).abs() <= 0.005 * friction);
+        // And the life at another load is compared by the same smooth contact.
+        let smooth = found.smooth.unwrap() / own.life_smooth.unwrap();
+        assert!((smooth - 1.0).abs() < 0.005, "{smooth}");
     }
 }
 

@@ -13,12 +13,12 @@ use asperity_engine::math::number::sig;
 use asperity_engine::scene::{CycleBasis, Event, Scene, Surface};
 use asperity_engine::sim::{AgePoint, CautionCode, Knob};
 use asperity_explorer::tui::action::Action;
-use asperity_explorer::tui::app::{App, Effect, ErrandKind, Leading};
+use asperity_explorer::tui::app::{Across, App, Effect, ErrandKind, Leading};
 use asperity_explorer::tui::event::PointerAct;
 use asperity_explorer::tui::lessons::{ComparedWith, FILES, Lesson};
 use asperity_explorer::tui::view;
 use asperity_session::run::{Assumed, Command, Settled};
-use asperity_session::sweep::{Along, Found, Varied};
+use asperity_session::sweep::{Along, CurvePoint, Found, Varied};
 use ratatui::layout::Rect;
 
 /// The run hears of a knob one step later than the screen, and until then it still tells of the orbit that the
@@ -608,6 +608,8 @@ fn a_curve_is_filled_in_when_it_is_shown() {
     // Four to a decade around the scene's own speed, which the run has.
     assert_eq!(speeds.len(), 8);
     assert!(speeds.contains(&0.1) && speeds.contains(&10.0));
+    app.apply(Action::Curve);
+    app.apply(Action::Curve);
     let [(Varied::Along(Along::SlideRoll), rest)] = &ordered(&app.apply(Action::Curve))[..] else {
         panic!("no order");
     };
@@ -811,4 +813,101 @@ fn a_curve_is_swept_from_the_first_mesh_on_and_refined_where_it_bends() {
     app.take_swept(Vec::new(), Some((0, 1)));
     let then = app.take_swept(vec![found(0.375, 1.0, own)], None);
     assert_eq!(ordered(&then), [0.3125]);
+}
+
+/// Row by row, that of the scene first: S along each, another load or other amplitudes for each; a press on a cell turns the knobs there.
+#[test]
+fn a_map_of_lives_is_swept_row_by_row() {
+    let mut app = running(plain());
+    let orders = |effects: Vec<Effect>| {
+        let orders = effects.into_iter().filter_map(|effect| match effect {
+            Effect::Sweep(order) => Some(*order),
+            _ => None,
+        });
+        orders.collect::<Vec<_>>()
+    };
+    let orbit = Arc::new(Settled {
+        state: Some(state()),
+        ..settled(&State::default())
+    });
+    app.take_settled(Some(orbit));
+    app.apply(Action::Curve);
+    app.apply(Action::Curve);
+    for across in [Across::Load, Across::Amplitude] {
+        let mut next = orders(app.apply(Action::Curve));
+        let (mut rows, mut all) = (Vec::new(), 0);
+        while let [order] = &next[..] {
+            assert_eq!(order.varied, Varied::Along(Along::SlideRoll));
+            let heights =
+                [&order.scene.body_1, &order.scene.body_2].map(|body| body.surface.amplitude_m());
+            let load_n = order.scene.force_n();
+            let times = [load_n / 800.0, heights[0] / 2e-7, heights[1] / 2e-7];
+            match across {
+                Across::Load => assert_eq!(times[1..], [1.0, 1.0]),
+                Across::Amplitude => assert!((times[0] - 1.0).abs() < 1e-9 && times[1] == times[2]),
+            }
+            let times = if across == Across::Load {
+                times[0]
+            } else {
+                times[1]
+            };
+            // Lives fall with the load's square, their smooth contact's with its cube.
+            let at = |s: &f64| Found {
+                at: CurvePoint {
+                    load_n,
+                    amplitude_m: heights,
+                    ..found(*s, 1.0, 1.0).at
+                },
+                smooth: Some(4.0 * times.powi(-3)),
+                ..found(*s, 1.0, (1.0 - 0.4 * s) * times.powi(-2))
+            };
+            rows.push((times * 100.0).round() / 100.0);
+            all += order.values.len();
+            let found: Vec<_> = order.values.iter().map(at).collect();
+            app.take_swept(Vec::new(), Some((0, found.len())));
+            next = orders(app.take_swept(found, None));
+        }
+        // The run itself is one cell of the scene's row; what the first map has of that row the second one has, too.
+        let (expected, n): (&[f64], _) = match across {
+            Across::Load => (&[1.0, 1.4, 0.7, 2.0, 0.5], 6 * 5 - 1),
+            Across::Amplitude => (&[1.4, 0.7, 2.0, 0.5], 6 * 4),
+        };
+        assert_eq!((&rows[..], all), (expected, n));
+        let map = app.life_map(across);
+        assert_eq!((map.columns.len(), map.rows.len()), (6, 5));
+        assert_eq!(map.here, (2, 3));
+        let power = if across == Across::Load { -5 } else { -2 };
+        for (row, (times, _)) in map.rows.iter().enumerate() {
+            for (column, s) in map.columns.iter().enumerate().filter(|at| *at.1 != 0.5) {
+                let expected = (1.0 - 0.4 * s) * times.powi(power);
+                let life = map.lives[row * 6 + column].unwrap();
+                assert!(
+                    (life / expected - 1.0).abs() < 1e-9,
+                    "{times} {s}: {life}, {expected}"
+                );
+            }
+        }
+        let name = format!("map_of_{across:?}_160x48").to_lowercase();
+        insta::assert_snapshot!(name, text(&app, 160, 48));
+    }
+    let turned = app.apply(Action::GoToCell(0, 4));
+    let turned: Vec<_> = turned
+        .into_iter()
+        .filter_map(|effect| match effect {
+            Effect::Send(Command::Set(knob, value)) => Some((knob, value)),
+            _ => None,
+        })
+        .collect();
+    let amplitude_m = 2.0 * 2.0e-7;
+    assert_eq!(
+        turned,
+        [
+            (Knob::Amplitude1M, amplitude_m),
+            (Knob::Amplitude2M, amplitude_m),
+            (Knob::SlideRoll, 1.0)
+        ]
+    );
+    // What is known stays known.
+    let map = app.life_map(Across::Amplitude);
+    assert_eq!((map.here, map.lives.iter().flatten().count()), ((0, 4), 30));
 }

@@ -32,6 +32,8 @@ pub enum Action {
     Typical(usize),
     /// Put a knob at the step that is nearest to a value, SI.
     GoTo(Knob, f64),
+    /// Put the knobs where a cell of the map of lives is, by its row and column.
+    GoToCell(usize, usize),
     /// Type a value for the chosen knob.
     Type,
     /// A letter of it.

@@ -217,8 +217,19 @@ pub enum CurveKind {
     Friction,
     /// Friction coefficient against the speed.
     Stribeck,
+    /// Relative life over S and another knob.
+    Map(Across),
     /// Of surfaces that age, against the loading cycles.
     Aged(Aged),
+}
+
+/// What a map of lives over S has upwards.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Across {
+    /// The load.
+    Load,
+    /// The amplitudes of both bodies, in their ratio.
+    Amplitude,
 }
 
 /// What ageing surfaces are followed by.
@@ -256,7 +267,13 @@ impl Aged {
 }
 
 impl CurveKind {
-    const NEW: [Self; 3] = [Self::Life, Self::Friction, Self::Stribeck];
+    const NEW: [Self; 5] = [
+        Self::Life,
+        Self::Friction,
+        Self::Stribeck,
+        Self::Map(Across::Load),
+        Self::Map(Across::Amplitude),
+    ];
     const AGED: [Self; 10] = [
         Self::Life,
         Self::Aged(Aged::Life),
@@ -276,6 +293,8 @@ impl CurveKind {
             Self::Life => "life against S",
             Self::Friction => "friction against S",
             Self::Stribeck => "Stribeck",
+            Self::Map(Across::Load) => "life over S and load",
+            Self::Map(Across::Amplitude) => "life over S and amplitude",
             Self::Aged(aged) => aged.name(),
         }
     }

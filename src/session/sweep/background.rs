@@ -161,6 +161,9 @@ pub struct Found {
     pub life: Option<[f64; 3]>,
     /// The same by the count that is not the scene's: the paper's, or by damage.
     pub other: Option<f64>,
+    /// Life of the smooth contact there, which lives at different loads are compared by
+    /// ([`asperity_engine::sim::Summary::life_smooth`]); `None`: not known.
+    pub smooth: Option<f64>,
     /// Friction coefficient.
     pub friction: f64,
     /// λ: smooth central film by formula over the composite roughness; `None` for smooth surfaces.
@@ -393,6 +396,7 @@ fn found(scene: &Scene, record: &CaseRecord, choice: usize) -> Found {
             Some(CycleBasis::Global | CycleBasis::Peaks) => summary.life_damage,
             None => None,
         },
+        smooth: summary.life_smooth,
         friction: summary.friction_coefficient,
         lambda: record.lambda_ratio,
     }

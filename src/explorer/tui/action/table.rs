@@ -65,7 +65,7 @@ pub const KEYS: &[Row] = rows! {
         "P [ ]", "point: body; its depth": ch('P') => PointBody, ch('[') => PointDepth(-1), ch(']') => PointDepth(1);
         "< >", "another point of the body": ch('<') => MovePoint(-1), ch('>') => MovePoint(1);
         "b", "freeze to compare; release": ch('b') => Pin;
-        "y", "life, friction, Stribeck": ch('y') => Curve;
+        "y", "life, friction, life map": ch('y') => Curve;
         "a", "count: by damage, Pu et al.": ch('a') => OtherCount;
         "g", "age the surfaces; new ones": ch('g') => Age;
         "u", "other units": ch('u') => Units;

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::data::Effect;
 use super::state::App;
-use crate::tui::kinds::CurveKind;
+use crate::tui::kinds::{Across, CurveKind};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{Knob, Metrics};
@@ -19,7 +19,7 @@ use asperity_session::sweep::{Along, CurveOrder, CurvePoint, Found, Varied};
 /// Values of S that a sweep visits, of either sign: close where life falls fastest.
 const SWEPT: [f64; 10] = [0.0, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75];
 /// Values of S that are as good as the same.
-const SAME_S: f64 = 0.02;
+pub(super) const SAME_S: f64 = 0.02;
 /// ln of the lives on both sides of a gap from which on its middle is visited too.
 const BEND: f64 = 0.25;
 /// Speeds that a sweep visits to either side of the scene's own, four to a decade.
@@ -27,7 +27,7 @@ const SPEEDS: i32 = 4;
 /// Ratio of speeds that are as good as the same.
 const SAME_SPEED: f64 = 0.05;
 /// Points kept.
-const KEPT: usize = 128;
+const KEPT: usize = 256;
 
 /// Where a frame was computed.
 pub(super) fn conditions(metrics: &Metrics) -> CurvePoint {
@@ -39,12 +39,12 @@ pub(super) fn conditions(metrics: &Metrics) -> CurvePoint {
     }
 }
 
-fn close(one: f64, other: f64, within: f64) -> bool {
+pub(super) fn close(one: f64, other: f64, within: f64) -> bool {
     (one - other).abs() <= within * one.abs().max(other.abs())
 }
 
 /// Load and both surfaces.
-fn same_contact(one: &CurvePoint, other: &CurvePoint) -> bool {
+pub(super) fn same_contact(one: &CurvePoint, other: &CurvePoint) -> bool {
     const ROUNDED: f64 = 1e-3;
     let [a, b] = [one, other].map(|at| [at.load_n, at.amplitude_m[0], at.amplitude_m[1]]);
     a.into_iter().zip(b).all(|(a, b)| close(a, b, ROUNDED))
@@ -52,7 +52,7 @@ fn same_contact(one: &CurvePoint, other: &CurvePoint) -> bool {
 
 impl App {
     /// Where the knobs are going.
-    fn aim(&self) -> CurvePoint {
+    pub(super) fn aim(&self) -> CurvePoint {
         CurvePoint {
             slide_roll: self.target(Knob::SlideRoll),
             entrainment_m_s: self.target(Knob::EntrainmentMS),
@@ -124,6 +124,9 @@ impl App {
         if ages || settled.is_none_or(|settled| settled.state.is_none()) {
             return Vec::new();
         }
+        if let Some(across) = self.view.curve.across() {
+            return self.begin_row(across);
+        }
         let along = self.view.curve.along();
         let known = |value: f64| {
             self.simulated(along).any(|found| match along {
@@ -132,7 +135,7 @@ impl App {
             })
         };
         // What was tried and gave nothing is not tried again.
-        let is_new = |value: &f64| !known(*value) && !self.lives.swept.contains(value);
+        let is_new = |value: &f64| !known(*value) && !self.lives.swept.contains(&[*value, 1.0]);
         let mut values: Vec<f64> = self.candidates(along).filter(is_new).collect();
         if values.is_empty() && along == Along::SlideRoll {
             values = self.bends().into_iter().filter(is_new).collect();
@@ -140,14 +143,14 @@ impl App {
         if values.is_empty() {
             return self.begin_otherwise();
         }
-        self.lives.swept.extend(&values);
+        (self.lives.swept).extend(values.iter().map(|value| [*value, 1.0]));
         // What this one ends is asked for again after it.
         self.lives.assumed.retain(|(_, range)| range.is_some());
         let scene = self.scene_now();
         self.order(Varied::Along(along), values, scene)
     }
 
-    fn order(&mut self, varied: Varied, values: Vec<f64>, scene: Scene) -> Vec<Effect> {
+    pub(super) fn order(&mut self, varied: Varied, values: Vec<f64>, scene: Scene) -> Vec<Effect> {
         self.lives.sweeping = varied;
         vec![Effect::Sweep(Box::new(CurveOrder {
             varied,
@@ -158,7 +161,7 @@ impl App {
 
     /// Once the curve and the last mesh are done: the lives with the next thing assumed otherwise of which a caution says that the
     /// scene assumes it.
-    fn begin_otherwise(&mut self) -> Vec<Effect> {
+    pub(super) fn begin_otherwise(&mut self) -> Vec<Effect> {
         let is_last = (self.replay.settled.as_ref()).is_some_and(|settled| settled.is_last);
         if !is_last || self.lives.sweep.is_some() {
             return Vec::new();
@@ -241,14 +244,19 @@ impl App {
 
     /// The next curve; what it lacks is computed.
     pub(super) fn next_curve(&mut self) -> Vec<Effect> {
-        let before = self.view.curve.along();
-        self.view.curve = self.view.curve.next(self.run.setup.scene.age.is_some());
+        let swept = |curve: CurveKind| (curve.along(), curve.across());
+        let before = swept(self.view.curve);
+        let ages = self.run.setup.scene.age.is_some();
+        self.view.curve = self.view.curve.next(ages);
+        while (self.view.curve.across()).is_some_and(|across| !self.has_map(across)) {
+            self.view.curve = self.view.curve.next(ages);
+        }
         // A screen without room for curves draws them in the enlarged panel alone.
         self.say(format!(
             "{} (Enter on the life draws it large)",
             self.view.curve.name()
         ));
-        if self.view.curve.along() == before {
+        if swept(self.view.curve) == before {
             return Vec::new();
         }
         self.lives.swept.clear();
@@ -260,8 +268,16 @@ impl CurveKind {
     /// What a sweep for it, or beside it, goes along.
     pub fn along(self) -> Along {
         match self {
-            Self::Life | Self::Friction | Self::Aged(_) => Along::SlideRoll,
+            Self::Life | Self::Friction | Self::Map(_) | Self::Aged(_) => Along::SlideRoll,
             Self::Stribeck => Along::Entrainment,
+        }
+    }
+
+    /// What a map has upwards; `None`: it is a curve.
+    pub fn across(self) -> Option<Across> {
+        match self {
+            Self::Map(across) => Some(across),
+            Self::Life | Self::Friction | Self::Stribeck | Self::Aged(_) => None,
         }
     }
 }

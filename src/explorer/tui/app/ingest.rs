@@ -165,6 +165,7 @@ impl App {
             ]),
             other: self.other_life(),
             friction,
+            smooth: Some(life.life_smooth).filter(|smooth| *smooth > 0.0),
             lambda: metrics.lambda_ratio,
         });
         let at = OperatingPoint {

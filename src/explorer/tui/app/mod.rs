@@ -5,6 +5,7 @@ mod curve;
 mod data;
 mod frozen;
 mod ingest;
+mod life_map;
 mod lives;
 mod reduce;
 mod repeating;
@@ -15,11 +16,13 @@ mod typed;
 mod why;
 
 pub use crate::tui::kinds::{
-    Aged, AutoReplay, CurveKind, Leading, MapKind, Overlay, PanelKind, PointQuantity, RunPace, Zoom,
+    Across, Aged, AutoReplay, CurveKind, Leading, MapKind, Overlay, PanelKind, PointQuantity,
+    RunPace, Zoom,
 };
 pub use data::{
     AxisEnds, Effect, ErrandKind, LifeAccount, LifeSample, Pinned, PointNow, StateBefore, Trouble,
     WhyUnconverged,
 };
+pub use life_map::LifeMap;
 pub use state::App;
 pub use why::WhyLine;

@@ -39,6 +39,7 @@ impl App {
             Action::Slide(place, fraction) => self.slide(place, fraction),
             Action::Type => self.begin_typing(),
             Action::GoTo(knob, value) => self.go_to(knob, value),
+            Action::GoToCell(row, column) => self.go_to_cell(row, column),
             Action::Typical(n) => self.typical(n),
             Action::Home => self.set(
                 self.choice.chosen,
@@ -108,6 +109,7 @@ impl App {
             | Action::Slide(_, _)
             | Action::Typical(_)
             | Action::GoTo(_, _)
+            | Action::GoToCell(_, _)
             | Action::Type
             | Action::Letter(_)
             | Action::Erase

@@ -107,8 +107,8 @@ pub(crate) struct LivesState {
     pub(crate) sweep: Option<(usize, usize)>,
     /// What it goes along.
     pub(crate) sweeping: Varied,
-    /// Values that sweeps were asked for since a knob was turned.
-    pub(super) swept: Vec<f64>,
+    /// Values that sweeps were asked for since a knob was turned; of a map with the times that its row is of, else with 1.
+    pub(super) swept: Vec<[f64; 2]>,
     /// Lives with what is assumed assumed otherwise, as a sweep finds them.
     pub(super) otherwise: Vec<Option<f64>>,
     /// What they come to; `None`: under way, or not all of them got through.

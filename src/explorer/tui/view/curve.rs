@@ -2,6 +2,7 @@
 
 mod aged;
 mod along;
+mod map;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -21,7 +22,10 @@ const CURVE_ROWS: u16 = 7;
 
 /// A press on a plot along S, or along the speed, puts that knob there.
 pub(super) fn pressed(app: &App, plot: Rect, at: Position) -> Option<Action> {
-    let x = along::figure(app).plot(plot).x_at(at.x);
+    let Some(figure) = along::figure(app) else {
+        return map::pressed(app, plot, at);
+    };
+    let x = figure.plot(plot).x_at(at.x);
     along::goes_to(app, x).filter(|_| plot.contains(at))
 }
 
@@ -39,10 +43,15 @@ pub(super) fn render(app: &App, area: Rect, buffer: &mut Buffer) -> (Option<Rect
     if curve_rows == 0 {
         return (None, left_to_page.into_iter().collect());
     }
-    let figure = along::figure(app);
-    let (plot, curve) = draw(app, &figure, rows(area, 1, curve_rows - 1), buffer);
-    let plots = left_to_page.into_iter().chain(curve);
-    (Some(plot), plots.collect())
+    let area = rows(area, 1, curve_rows - 1);
+    let (plot, curve) = match along::figure(app) {
+        Some(figure) => {
+            let (plot, curve) = draw(app, &figure, area, buffer);
+            (Some(plot), curve)
+        }
+        None => (map::draw(app, area, buffer), None),
+    };
+    (plot, left_to_page.into_iter().chain(curve).collect())
 }
 
 fn draw(

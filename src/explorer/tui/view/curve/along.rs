@@ -72,13 +72,15 @@ const FINE: usize = 120;
 /// |S| up to which the formula sets the axis.
 const MOVES: f64 = 1.9;
 
-pub(super) fn figure(app: &App) -> CurveFigure {
-    match app.view.curve {
+/// `None`: it is a map.
+pub(super) fn figure(app: &App) -> Option<CurveFigure> {
+    Some(match app.view.curve {
         CurveKind::Life => life(app),
         CurveKind::Friction => friction(app),
         CurveKind::Stribeck => stribeck(app),
         CurveKind::Aged(aged) => super::aged::figure(app, aged),
-    }
+        CurveKind::Map(_) => return None,
+    })
 }
 
 /// What a press at a place of the present curve's axis asks for.
@@ -90,7 +92,7 @@ pub(super) fn goes_to(app: &App, x: f64) -> Option<Action> {
             let speed = 10_f64.powf(x).copysign(sign);
             Some(Action::GoTo(Knob::EntrainmentMS, speed))
         }
-        CurveKind::Aged(_) => None,
+        CurveKind::Aged(_) | CurveKind::Map(_) => None,
     }
 }
 
