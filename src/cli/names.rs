@@ -32,8 +32,11 @@ impl Names {
             names.reads("the scene", Some(Path::new(&args.scene.scene)));
         }
         for surface in scene.surfaces() {
-            if let Surface::HeightMap { file, .. } = surface {
-                names.reads("a height map", Some(Path::new(file)));
+            match surface {
+                Surface::HeightMap { file, .. } => {
+                    names.reads("a height map", Some(Path::new(file)));
+                }
+                Surface::Smooth {} | Surface::Sinusoid { .. } | Surface::Random(_) => {}
             }
         }
         let recording = scene.record.is_some().then_some(recording);

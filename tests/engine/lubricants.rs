@@ -3,8 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::contact::{CIRCLE, Case, Fluid, TOLERANCE, conditions};
+use asperity_engine::physics::fluid::{DensityLaw, ViscosityLaw};
 use asperity_engine::plan::Plan;
-use asperity_engine::scene::{Override, Scene};
+use asperity_engine::scene::{Cavitation, Override, Scene};
 use asperity_engine::sim::{Frame, Simulation};
 use asperity_engine::solve::march::{Flow, Guess, March};
 use asperity_engine::solve::newton::Verdict;
@@ -18,17 +19,18 @@ fn every_combination_of_laws_converges_on_rough_surfaces() {
         "viscosity density rheology flow cavitation | retries, Newton and Krylov iterations, worst mass and load error, friction, h_min nm, contact"
     );
     let mut runs = 0;
-    for viscosity in ["barus", "roelands"] {
-        for density in ["incompressible", "dowson_higginson", "venner_lubrecht"] {
+    let laws = [ViscosityLaw::KEYS, DensityLaw::KEYS, Cavitation::KEYS];
+    for viscosity in laws[0] {
+        for density in laws[1] {
             for rheology in ["newtonian", "eyring, secant", "eyring, along_across"] {
-                for cavitation in ["reynolds", "jfo"] {
+                for cavitation in laws[2] {
                     rough_run([viscosity, density, rheology, cavitation]);
                     runs += 1;
                 }
             }
         }
     }
-    assert_eq!(runs, 36);
+    assert_eq!(runs, 3 * laws.map(<[_]>::len).iter().product::<usize>());
 }
 
 /// The default scene under those laws (limiting shear stress 0.08 p with Eyring) on 65².

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::time::Instant;
 
+use asperity_engine::physics::fluid::{DensityLaw, Rheology, ViscosityLaw};
 use asperity_engine::plan::{FilmPlan, Plan, Warning};
 use asperity_engine::scene::{Override, Scene};
 use asperity_engine::sim::{Caution, CautionCode, Metrics, Simulation, StepError};
@@ -180,10 +181,9 @@ fn settings(index: u64) -> (Ranges, Vec<String>) {
             "lubricant.pressure_viscosity_per_pa",
             &format!("{alpha:.4e}"),
         );
-        set("lubricant.viscosity_law", &draw.of(&["barus", "roelands"]));
-        let density = ["incompressible", "dowson_higginson", "venner_lubrecht"];
-        set("lubricant.density_law", &draw.of(&density));
-        set("lubricant.rheology", &draw.of(&["newtonian", "eyring"]));
+        set("lubricant.viscosity_law", &draw.of(ViscosityLaw::KEYS));
+        set("lubricant.density_law", &draw.of(DensityLaw::KEYS));
+        set("lubricant.rheology", &draw.of(Rheology::KEYS));
         let eyring_pa = over(&mut draw, ranges.eyring_pa);
         set("lubricant.eyring_stress_pa", &format!("{eyring_pa:.3e}"));
         set(

@@ -3,7 +3,9 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
+use asperity_engine::physics::fatigue::LifeLaw;
 use asperity_engine::physics::hertz::ContactKind;
+use asperity_engine::physics::life_models::LifeEquation;
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Event, Override, Scene};
 use asperity_engine::sim::{Frame, Simulation, Summary};
@@ -149,8 +151,7 @@ fn a_load_that_is_turned_up_gives_the_life_of_a_run_that_begins_there() {
     let closed = asperity_engine::physics::estimate::load_factor(
         ContactKind::Point,
         ratio,
-        31.0 / 3.0,
-        10.0 / 9.0,
+        (LifeEquation::Zaretsky, LifeLaw::default()),
     );
     println!("load factor by Hertz {closed:.4e}");
     assert!(apart(pair.turned.load_factor, Some(closed)) < 0.02);

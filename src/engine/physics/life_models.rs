@@ -145,8 +145,17 @@ impl LifeEquation {
             | Self::DangVan { .. }
             | Self::Findley { .. } => false,
         };
-        let exponent = (self.growth(law, sides, false) + self.width(sides)) / law.weibull_slope;
-        (!limited).then_some(exponent)
+        (!limited).then_some(self.unlimited_exponent(law, sides))
+    }
+
+    /// The same as if there were no limit.
+    pub fn unlimited_exponent(self, law: LifeLaw, sides: f64) -> f64 {
+        (self.growth(law, sides, false) + self.width(sides)) / law.weibull_slope
+    }
+
+    /// Exponent m of life against stress, `N ∝ σ^{−m}`: that of a cycle's damage, `1/N`.
+    pub fn life_exponent(self, law: LifeLaw) -> f64 {
+        self.over_stress(law) / law.weibull_slope
     }
 }
 

@@ -298,24 +298,28 @@ impl Surface {
     /// Wavenumbers of the surface along x and y, 1/m: the largest that the turned product holds; of a
     /// height map that of its shortest significant waves.
     pub fn wavenumbers_per_m(&self) -> [f64; 2] {
-        if let Some((map, sides_m)) = self.relief() {
-            return [0, 1].map(|k| 1.0 / (map.shortest[k] * sides_m[k]));
+        match *self {
+            Self::Smooth {} => [0.0; 2],
+            Self::Sinusoid {
+                wavelength_x_m,
+                wavelength_y_m,
+                angle_deg,
+                ..
+            } => {
+                let (sin, cos) = exact_sin_cos(angle_deg);
+                let (k_x, k_y) = (1.0 / wavelength_x_m, 1.0 / wavelength_y_m);
+                [
+                    (k_x * cos).abs() + (k_y * sin).abs(),
+                    (k_x * sin).abs() + (k_y * cos).abs(),
+                ]
+            }
+            // Nothing before it is made or read.
+            Self::Random(_) | Self::HeightMap { .. } => {
+                self.relief().map_or([0.0; 2], |(map, sides_m)| {
+                    [0, 1].map(|k| 1.0 / (map.shortest[k] * sides_m[k]))
+                })
+            }
         }
-        let Self::Sinusoid {
-            wavelength_x_m,
-            wavelength_y_m,
-            angle_deg,
-            ..
-        } = *self
-        else {
-            return [0.0, 0.0];
-        };
-        let (sin, cos) = exact_sin_cos(angle_deg);
-        let (k_x, k_y) = (1.0 / wavelength_x_m, 1.0 / wavelength_y_m);
-        [
-            (k_x * cos).abs() + (k_y * sin).abs(),
-            (k_x * sin).abs() + (k_y * cos).abs(),
-        ]
     }
 
     /// Whether the surface changes along the rolling direction, so that its motion shows.
@@ -325,26 +329,22 @@ impl Surface {
 
     /// Whether the surface is its own mirror image in y = 0, wherever it has moved along x.
     pub fn is_even_in_y(&self) -> bool {
-        if let Some((map, _)) = self.relief() {
-            return map.is_even_in_y;
-        }
-        let Self::Sinusoid {
-            wavelength_x_m,
-            angle_deg,
-            phase_deg,
-            ..
-        } = *self
-        else {
-            return true;
-        };
-        let (sin, cos) = exact_sin_cos(angle_deg);
-        if sin == 0.0 {
-            true
-        } else if cos == 0.0 {
-            // x' runs along y: its wave is even only without a phase.
-            wavelength_x_m.is_infinite() || phase_deg.rem_euclid(180.0) == 0.0
-        } else {
-            false
+        match *self {
+            Self::Smooth {} => true,
+            Self::Sinusoid {
+                wavelength_x_m,
+                angle_deg,
+                phase_deg,
+                ..
+            } => match exact_sin_cos(angle_deg) {
+                (0.0, _) => true,
+                // x' runs along y: its wave is even only without a phase.
+                (_, 0.0) => wavelength_x_m.is_infinite() || phase_deg.rem_euclid(180.0) == 0.0,
+                (_, _) => false,
+            },
+            Self::Random(_) | Self::HeightMap { .. } => {
+                self.relief().is_none_or(|(map, _)| map.is_even_in_y)
+            }
         }
     }
 }

@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::error::SceneError;
 use crate::closed_set;
+use crate::physics::fatigue::LifeLaw;
+use crate::physics::life_models::LifeEquation;
 
 closed_set! {
     /// Life model; equations and sources: [`crate::physics::life_models`].
@@ -156,6 +158,36 @@ impl Default for Life {
 }
 
 impl Life {
+    /// A model with this scene's numbers, the limit over the Hertz pressure.
+    pub fn equation(&self, model: LifeModel, p_hertz_pa: f64) -> LifeEquation {
+        match model {
+            LifeModel::Zaretsky => LifeEquation::Zaretsky,
+            LifeModel::LundbergPalmgren => LifeEquation::LundbergPalmgren {
+                depth_exponent: self.depth_exponent,
+                cut_off: self.cut_off_a,
+            },
+            LifeModel::IoannidesHarris => LifeEquation::IoannidesHarris {
+                depth_exponent: self.depth_exponent,
+                cut_off: self.cut_off_a,
+                limit: self.limit_pa / p_hertz_pa,
+            },
+            LifeModel::DangVan => LifeEquation::DangVan {
+                hydrostatic: self.normal_weight,
+            },
+            LifeModel::Findley => LifeEquation::Findley {
+                normal: self.normal_weight,
+            },
+        }
+    }
+
+    /// c and e.
+    pub fn law(&self) -> LifeLaw {
+        LifeLaw {
+            stress_exponent: self.stress_exponent,
+            weibull_slope: self.weibull_slope,
+        }
+    }
+
     /// Cycles and Hertz pressure (Pa) of the calibration point.
     pub fn calibration(&self) -> Option<(f64, f64)> {
         self.calibration_cycles.zip(self.calibration_pressure_pa)

@@ -242,55 +242,58 @@ impl Scene {
         ];
         let mut seed = None;
         for (table, body) in bodies {
-            if let Surface::Random(random) = &mut body.surface {
-                random.make(table, RandomSurface::usual_seed(seed))?;
-                seed = random.seed;
-            }
-            if let Surface::HeightMap {
-                file,
-                pixel_m,
-                edge,
-                unit_m,
-                digest,
-                level,
-                outliers,
-                crop_m,
-                turn_deg,
-                s_filter_m,
-                l_filter_m,
-                map,
-                ..
-            } = &mut body.surface
-                && map.is_none()
-            {
-                let asked = height_map::Asked {
-                    table,
-                    file,
-                    pixel_m: *pixel_m,
-                    unit_m: *unit_m,
-                    beyond: *edge,
-                    level: *level,
-                    outliers: *outliers,
-                    crop_m: *crop_m,
-                    turn_deg: *turn_deg,
-                    filters_m: [*s_filter_m, *l_filter_m],
-                };
-                let found = asked.read(folder)?;
-                if digest
-                    .as_ref()
-                    .is_some_and(|digest| *digest != found.digest)
-                {
-                    return Err(height_map::changed(table, file, &found.digest));
+            match &mut body.surface {
+                Surface::Smooth {}
+                | Surface::Sinusoid { .. }
+                | Surface::HeightMap { map: Some(_), .. } => {}
+                Surface::Random(random) => {
+                    random.make(table, RandomSurface::usual_seed(seed))?;
+                    seed = random.seed;
                 }
-                *map = Some(Arc::new(found.map));
-                *digest = Some(found.digest);
-                // A copy of the scene keeps what the file says now.
-                (*pixel_m, *unit_m) = (Some(found.pixel_m), Some(found.unit_m));
-                if !file.starts_with(presets::BUILTIN)
-                    && let Ok(absolute) = std::path::absolute(folder.join(&*file))
-                    && let Some(text) = absolute.to_str()
-                {
-                    text.clone_into(file);
+                Surface::HeightMap {
+                    file,
+                    pixel_m,
+                    edge,
+                    unit_m,
+                    digest,
+                    level,
+                    outliers,
+                    crop_m,
+                    turn_deg,
+                    s_filter_m,
+                    l_filter_m,
+                    map: map @ None,
+                    ..
+                } => {
+                    let asked = height_map::Asked {
+                        table,
+                        file,
+                        pixel_m: *pixel_m,
+                        unit_m: *unit_m,
+                        beyond: *edge,
+                        level: *level,
+                        outliers: *outliers,
+                        crop_m: *crop_m,
+                        turn_deg: *turn_deg,
+                        filters_m: [*s_filter_m, *l_filter_m],
+                    };
+                    let found = asked.read(folder)?;
+                    if digest
+                        .as_ref()
+                        .is_some_and(|digest| *digest != found.digest)
+                    {
+                        return Err(height_map::changed(table, file, &found.digest));
+                    }
+                    *map = Some(Arc::new(found.map));
+                    *digest = Some(found.digest);
+                    // A copy of the scene keeps what the file says now.
+                    (*pixel_m, *unit_m) = (Some(found.pixel_m), Some(found.unit_m));
+                    if !file.starts_with(presets::BUILTIN)
+                        && let Ok(absolute) = std::path::absolute(folder.join(&*file))
+                        && let Some(text) = absolute.to_str()
+                    {
+                        text.clone_into(file);
+                    }
                 }
             }
         }

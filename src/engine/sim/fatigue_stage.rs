@@ -91,10 +91,7 @@ impl LifeStage {
     /// Meters over a passage of `plan` (in a); `None` without a `[life]`.
     pub(super) fn new(scene: &Scene, plan: &Plan, stress: &StressStage) -> Option<Self> {
         let (asked, life_plan) = (scene.life.clone()?, plan.life?);
-        let law = LifeLaw {
-            stress_exponent: asked.stress_exponent,
-            weibull_slope: asked.weibull_slope,
-        };
+        let law = asked.law();
         let p_h = plan.hertz.p_max_pa;
         let window = Window::closed(plan.passage_a);
         let capacity = life_plan.phases_per_passage.max(1) as usize + 1;

@@ -241,24 +241,7 @@ impl Variant {
 
 /// The models that are computed: the scene's, and those of the spread.
 pub(super) fn models(asked: &Life, p_hertz_pa: f64) -> Vec<LifeEquation> {
-    let make = |model: LifeModel| match model {
-        LifeModel::Zaretsky => LifeEquation::Zaretsky,
-        LifeModel::LundbergPalmgren => LifeEquation::LundbergPalmgren {
-            depth_exponent: asked.depth_exponent,
-            cut_off: asked.cut_off_a,
-        },
-        LifeModel::IoannidesHarris => LifeEquation::IoannidesHarris {
-            depth_exponent: asked.depth_exponent,
-            cut_off: asked.cut_off_a,
-            limit: asked.limit_pa / p_hertz_pa,
-        },
-        LifeModel::DangVan => LifeEquation::DangVan {
-            hydrostatic: asked.normal_weight,
-        },
-        LifeModel::Findley => LifeEquation::Findley {
-            normal: asked.normal_weight,
-        },
-    };
+    let make = |model: LifeModel| asked.equation(model, p_hertz_pa);
     let own = std::iter::once(asked.model);
     match asked.spread {
         Spread::Off | Spread::Cycles => own.map(make).collect(),

@@ -6,7 +6,6 @@ use crate::tui::wiring::Setup;
 use asperity_engine::physics::estimate::{
     Count, EstimateBasis, FilmBasis, OilBasis, SurfaceWave, ln_tractions,
 };
-use asperity_engine::physics::fatigue::LifeLaw;
 use asperity_engine::physics::hertz::ContactKind;
 use asperity_engine::physics::waviness::Waviness;
 use asperity_engine::scene::{CycleBasis, Scene, Surface};
@@ -18,10 +17,7 @@ const WIDE: f64 = 2.0;
 pub fn basis(setup: &Setup) -> EstimateBasis {
     let scene = &setup.scene;
     let life = scene.life.clone().unwrap_or_default();
-    let law = LifeLaw {
-        stress_exponent: life.stress_exponent,
-        weibull_slope: life.weibull_slope,
-    };
+    let (law, equation) = (life.law(), life.equation(life.model, setup.p_hertz_pa));
     let (shape, hertz) = (scene.kind(), scene.hertz());
     let section = if hertz.b_m >= WIDE * hertz.a_m {
         ContactKind::Line
@@ -42,13 +38,14 @@ pub fn basis(setup: &Setup) -> EstimateBasis {
         e_prime_pa: scene.e_prime_pa(),
         poisson,
         law,
+        equation,
         count: match life.cycles {
             CycleBasis::Damage => Count::Damage,
             CycleBasis::Global | CycleBasis::Peaks => Count::Contacts,
         },
         oil: oil(scene),
         boundary: scene.friction.boundary,
-        ln_traction: ln_tractions(section, poisson, law),
+        ln_traction: ln_tractions(section, poisson, equation.over_stress(law)),
     }
 }
 
@@ -65,45 +62,43 @@ fn oil(scene: &Scene) -> Option<OilBasis> {
     })
 }
 
-fn wave_of(surface: &Surface) -> Option<Waviness> {
-    let Surface::Sinusoid {
-        wavelength_x_m,
-        wavelength_y_m,
-        angle_deg,
-        phase_deg,
-        ..
-    } = *surface
-    else {
-        return None;
-    };
-    let (angle, phase) = (angle_deg.to_radians(), phase_deg.to_radians());
-    Some(Waviness::new(wavelength_x_m, wavelength_y_m, angle, phase))
-}
-
 /// The plane waves that a surface is made of: a product of two is two of half its height; a measured surface is taken
 /// for one transverse wave of its rms height and its crests.
 fn waves(surface: &Surface) -> [SurfaceWave; 2] {
     let none = SurfaceWave::default();
-    let Some(wave) = wave_of(surface) else {
-        let (rms_m, amplitude_m) = (surface.rq_m(), surface.amplitude_m());
-        if amplitude_m <= 0.0 {
-            return [none; 2];
+    match *surface {
+        Surface::Smooth {} => [none; 2],
+        Surface::Sinusoid {
+            wavelength_x_m,
+            wavelength_y_m,
+            angle_deg,
+            phase_deg,
+            ..
+        } => {
+            let (angle, phase) = (angle_deg.to_radians(), phase_deg.to_radians());
+            let wave = Waviness::new(wavelength_x_m, wavelength_y_m, angle, phase);
+            let (cos, sin) = wave.direction;
+            let turned = |across: f64, share: f64| SurfaceWave {
+                wavenumber_per_m: [wave.kx * cos - across * sin, wave.kx * sin + across * cos],
+                share,
+            };
+            if wave.kx > 0.0 && wave.ky > 0.0 {
+                [turned(wave.ky, 0.5), turned(-wave.ky, 0.5)]
+            } else {
+                [turned(wave.ky, 1.0), none]
+            }
         }
-        let one = SurfaceWave {
-            wavenumber_per_m: [TAU * surface.crests_per_m(), 0.0],
-            share: SQRT_2 * rms_m / amplitude_m,
-        };
-        return [one, none];
-    };
-    let (cos, sin) = wave.direction;
-    let turned = |across: f64, share: f64| SurfaceWave {
-        wavenumber_per_m: [wave.kx * cos - across * sin, wave.kx * sin + across * cos],
-        share,
-    };
-    if wave.kx > 0.0 && wave.ky > 0.0 {
-        [turned(wave.ky, 0.5), turned(-wave.ky, 0.5)]
-    } else {
-        [turned(wave.ky, 1.0), none]
+        Surface::Random(_) | Surface::HeightMap { .. } => {
+            let (rms_m, amplitude_m) = (surface.rq_m(), surface.amplitude_m());
+            if amplitude_m <= 0.0 {
+                return [none; 2];
+            }
+            let one = SurfaceWave {
+                wavenumber_per_m: [TAU * surface.crests_per_m(), 0.0],
+                share: SQRT_2 * rms_m / amplitude_m,
+            };
+            [one, none]
+        }
     }
 }
 
@@ -124,21 +119,21 @@ mod tests {
 
     #[test]
     fn plane_waves_add_up_to_the_surface() {
-        for surface in [
-            wave(1e-4, f64::INFINITY, 0.0),
-            wave(1e-4, 2e-4, 0.0),
-            wave(1e-4, 3e-4, 25.0),
-            wave(f64::INFINITY, 1e-4, 10.0),
+        for (x_m, y_m, angle_deg) in [
+            (1e-4, f64::INFINITY, 0.0_f64),
+            (1e-4, 2e-4, 0.0),
+            (1e-4, 3e-4, 25.0),
+            (f64::INFINITY, 1e-4, 10.0),
         ] {
-            let whole = wave_of(&surface).map(|wave| wave.shape(3.1e-5, 1.7e-5));
-            let sum: f64 = waves(&surface)
+            let whole = Waviness::new(x_m, y_m, angle_deg.to_radians(), 0.0).shape(3.1e-5, 1.7e-5);
+            let sum: f64 = waves(&wave(x_m, y_m, angle_deg))
                 .iter()
                 .map(|one| {
                     let [x, y] = one.wavenumber_per_m;
                     one.share * (3.1e-5 * x + 1.7e-5 * y).cos()
                 })
                 .sum();
-            assert_relative_eq!(whole.unwrap_or(f64::NAN), sum, epsilon = 1e-9);
+            assert_relative_eq!(whole, sum, epsilon = 1e-9);
         }
     }
 }
