@@ -531,9 +531,14 @@ fn swept_lives_fill_the_curve_with_their_bands() {
     app.apply(Action::Curve);
     app.take_swept(vec![found(0.5, 0.2, 0.05), found(0.5, 5.0, 0.3)], None);
     insta::assert_snapshot!("stribeck_160x48", text(&app, 160, 48));
-    for _maps_and_back in 0..3 {
-        app.apply(Action::Curve);
-    }
+    app.apply(Action::Curve);
+    // Where rows are few the enlarged life gives those of its factors to what the key chose.
+    app.apply(Action::Focus(PanelKind::Life));
+    app.apply(Action::Enter);
+    insta::assert_snapshot!("enlarged_map_of_lives_80x24", text(&app, 80, 24));
+    app.apply(Action::Enter);
+    app.apply(Action::Curve);
+    app.apply(Action::Curve);
     // Another load is another curve, from the key press on; back again it is the old one.
     assert_eq!(dots(&app), before + 3);
     app.apply(Action::Choose(1));

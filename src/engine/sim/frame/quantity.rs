@@ -360,6 +360,20 @@ mod tests {
     /// What is no scalar, or is told in parts.
     const OTHERS: [&str; 6] = ["asked", "yielded_m3", "life", "repeat", "errors", "detail"];
 
+    /// What is summed of a step, in its order.
+    const PLACES: [&str; 10] = [
+        "load_n",
+        "p_max_pa",
+        "h_central_m",
+        "h_min_m",
+        "contact_ratio",
+        "contact_load_ratio",
+        "load_error",
+        "mass_error",
+        "friction_coefficient",
+        "traction_max_pa",
+    ];
+
     #[test]
     fn every_scalar_is_in_the_catalogue_once() {
         let metrics = serde_json::to_value(Metrics::default()).expect("plain data");
@@ -396,6 +410,13 @@ mod tests {
             assert_eq!(list.len(), all);
         }
         assert_eq!(summed().count(), SUMMED);
+    }
+
+    /// Saved steps have no names, only this order: a line that is new goes to the end, here as in the catalogue.
+    #[test]
+    fn what_is_summed_keeps_its_place() {
+        let names: Vec<&str> = summed().map(|quantity| quantity.name).collect();
+        assert_eq!(names, PLACES);
     }
 
     #[test]

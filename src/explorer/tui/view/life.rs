@@ -17,6 +17,9 @@ use crate::tui::view::curve;
 use crate::tui::view::panel::{panel, title};
 use crate::tui::view::place::{RowAllotment, put};
 
+/// Rows from which factors and a curve have room below each other.
+const BOTH_ROWS: u16 = 26;
+
 /// A press on the curve against S goes there.
 pub(super) fn pressed(app: &App, areas: &Areas, screen: Rect, at: Position) -> Option<Action> {
     if !areas.life.contains(at) {
@@ -43,13 +46,15 @@ pub(super) fn render(
         return without_life(app, &mut rows, buffer);
     }
     let roomy = inner.height >= 20;
+    // The panel beside the others has the factors: one that is enlarged gives their rows to the curve where not both fit.
+    let to_curve = app.view.enlarged == Some(PanelKind::Life) && inner.height < BOTH_ROWS;
     if roomy {
         rows.take(1);
     }
     number::figure(app, &mut rows, buffer);
     validity::line(app, rows.take(1), buffer);
     // Where rows are few the factors and counts say more than a scale.
-    if inner.height >= 13 {
+    if inner.height >= 13 && !to_curve {
         bars::scale(app, &mut rows, buffer);
     }
     if roomy {
@@ -58,12 +63,16 @@ pub(super) fn render(
     if roomy {
         number::cause(app, rows.take(1), buffer);
     }
-    bars::mechanisms(app, &mut rows, buffer);
-    if roomy {
+    if !to_curve {
+        bars::mechanisms(app, &mut rows, buffer);
+    }
+    if roomy && !to_curve {
         bars::waterfall_ends(app.view.theme, rows.take(1), buffer);
     }
     counts::counts(app, &mut rows, buffer);
-    counts::other_count(app, &mut rows, buffer);
+    if !to_curve {
+        counts::other_count(app, &mut rows, buffer);
+    }
     if app.view.pinned.is_some() {
         counts::comparison(app, &mut rows, buffer);
     }
