@@ -214,7 +214,13 @@ class Painter {
     if (!this.shape(letter, x, y)) {
       const font = `${weight & ITALIC ? "italic " : ""}${weight & BOLD ? "bold " : ""}${this.size}px ${FONT}`;
       if (context.font !== font) context.font = font;
+      // What a bold letter has beyond its cell would stay when that cell is painted again.
+      context.save();
+      context.beginPath();
+      context.rect(x, y, this.cellWidth, this.cellHeight);
+      context.clip();
       context.fillText(letter, x + this.cellWidth / 2, y + this.cellHeight * 0.54, this.cellWidth * 1.1);
+      context.restore();
     }
     if (weight & UNDERLINED) context.fillRect(x, y + this.cellHeight - 2, this.cellWidth, 1);
     context.globalAlpha = 1;
