@@ -256,6 +256,38 @@ fn crafted_states_are_refused_in_words() {
     }
 }
 
+/// Waves stand on the finest grid alone: a start-up that has them before is refused, on the coarsest grid and on the finest.
+#[test]
+fn a_smooth_start_up_with_waves_is_refused() {
+    let scene = scene(&["grid.nodes=129", "numerics.ladder=false", "stress.depths=8"]);
+    let mut sim = simulation(&scene);
+    let mut nodes = Vec::new();
+    loop {
+        let good = serde_json::to_value(sim.save()).unwrap();
+        if good["phase"].get("Smooth").is_none() {
+            break;
+        }
+        if nodes.last() != Some(&good["nodes"]) {
+            nodes.push(good["nodes"].clone());
+            let restored = |state: &serde_json::Value| {
+                let state: State = serde_json::from_value(state.clone()).unwrap();
+                simulation(&scene).restore(&state)
+            };
+            restored(&good).unwrap();
+            for end in ["now", "target"] {
+                let mut state = good.clone();
+                *state
+                    .pointer_mut(&format!("/drive/settings/2/{end}"))
+                    .unwrap() = 1e-7.into();
+                let error = restored(&state).unwrap_err().to_string();
+                assert!(error.contains("its smooth start-up is rough"), "{error}");
+            }
+        }
+        sim.step().unwrap();
+    }
+    assert_eq!(nodes, [65, 129]);
+}
+
 /// Counters from a file that would overflow.
 #[test]
 fn counts_that_no_run_makes_are_refused() {

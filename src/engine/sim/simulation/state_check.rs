@@ -76,6 +76,13 @@ pub(super) fn check_course(
         Phase::Passage => on_finest,
     };
     demand(phase_fits, "its start-up is not this scene's")?;
+    // No wave stands on the coarser grids of a start-up.
+    let is_bare = Knob::AMPLITUDES.into_iter().all(|knob| {
+        let setting = saved.drive.get(knob);
+        setting.now == 0.0 && setting.target == 0.0
+    });
+    let is_smooth = matches!(saved.phase, Phase::Smooth { .. });
+    demand(is_bare || !is_smooth, "its smooth start-up is rough")?;
     let steps = [saved.step, saved.start_up_steps.0, saved.start_up_steps.1];
     demand(
         steps.into_iter().all(|n| n <= MOST_STEPS),
