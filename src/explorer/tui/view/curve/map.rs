@@ -55,7 +55,14 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Rect> {
     put(foot, 0, &theme.line("S", Role::Dim), buffer);
     for (column, s) in map.columns.iter().enumerate() {
         let place = columns(columns_from(foot, axis), column as u16 * wide, wide);
-        put_middle(place, 0, &theme.line(format!("{s}"), Role::Dim), buffer);
+        // As wide as a narrow cell, a number would touch its neighbour.
+        let number = format!("{s}");
+        let number = if number.len() < usize::from(wide) {
+            number
+        } else {
+            number.replace("0.", ".")
+        };
+        put_middle(place, 0, &theme.line(number, Role::Dim), buffer);
     }
     Some(Rect {
         width: wide * map.columns.len() as u16,
@@ -122,7 +129,8 @@ fn draw_cell(
 fn brief(life: f64) -> String {
     match life {
         100.0.. => format!("{life:.0e}"),
-        0.095.. => sig(life, 2),
+        0.0995.. => sig(life, 2),
+        0.00995.. => format!("{life:.3}").replacen('0', "", 1),
         _ => format!("{life:.0e}"),
     }
 }
@@ -137,5 +145,22 @@ fn heading(app: &App, map: &LifeMap, area: Rect, buffer: &mut Buffer) {
         let known = map.lives.iter().flatten().count();
         let text = format!("{}{known}/{}", theme.pick("↻ ", "@ "), map.lives.len());
         put_right(area, 0, &theme.line(text, Role::Warn), buffer);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_life_has_four_characters() {
+        let lives = [
+            0.0, 2e-12, 4.4e-3, 9.96e-3, 0.0146, 0.0996, 0.57, 9.96, 47.2, 130.0,
+        ];
+        let shown = lives.map(brief);
+        let expected = [
+            "0e0", "2e-12", "4e-3", ".010", ".015", "0.10", "0.57", "10", "47", "1e2",
+        ];
+        assert_eq!(shown, expected);
     }
 }
