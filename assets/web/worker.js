@@ -13,6 +13,7 @@ let drawn = 0;
 let pictured = 0;
 let room = "";
 let told = 0;
+let hasLife = false;
 let steps = 0;
 let since = 0;
 const start = performance.now();
@@ -53,7 +54,7 @@ function opened(is, screen) {
     steps = 0;
     since = performance.now();
     drawn = pictured = told = 0;
-    isPainting = false;
+    hasLife = isPainting = false;
     postMessage({ opened: screen });
   } else {
     postMessage({ refused: decoder.decode(given()) });
@@ -69,7 +70,7 @@ function turn() {
       made = wasm.step();
       steps += made & 1;
     } while (made && performance.now() - began < STEP_MS);
-    if (!isPainting && performance.now() - drawn >= frameMs) draw();
+    if (!isPainting && performance.now() - drawn >= (hasLife ? frameMs : Math.max(frameMs, 100))) draw();
   } catch (error) {
     fail(error);
     return;
@@ -102,9 +103,13 @@ function draw() {
     }
     pictured = now;
   }
-  if (now - told >= WORDS_MS) {
+  // The first life is told as soon as it is there.
+  const spoken = hasLife ? "" : words(wasm.spoken);
+  const isFirst = spoken.startsWith("Relative life");
+  hasLife ||= isFirst;
+  if (now - told >= WORDS_MS || isFirst) {
     told = now;
-    message.spoken = words(wasm.spoken);
+    message.spoken = spoken || words(wasm.spoken);
     message.caption = words(wasm.caption);
     message.link = words(wasm.link);
     message.steps = steps;
