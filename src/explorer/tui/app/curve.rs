@@ -94,7 +94,7 @@ impl App {
     }
 
     /// Takes what a sweep has found; `progress`: values done and in all, `None` when there is no sweep. One that is done is
-    /// gone on with where the curve bends.
+    /// gone on with where the curve bends, once the last mesh has settled.
     pub fn take_swept(
         &mut self,
         found: Vec<Found>,
@@ -137,7 +137,9 @@ impl App {
         // What was tried and gave nothing is not tried again.
         let is_new = |value: &f64| !known(*value) && !self.lives.swept.contains(&[*value, 1.0]);
         let mut values: Vec<f64> = self.candidates(along).filter(is_new).collect();
-        if values.is_empty() && along == Along::SlideRoll {
+        // What bends waits for the last mesh, whose climb it would make twice as long.
+        let is_last = settled.is_some_and(|settled| settled.is_last);
+        if values.is_empty() && along == Along::SlideRoll && is_last {
             values = self.bends().into_iter().filter(is_new).collect();
         }
         if values.is_empty() {
