@@ -257,13 +257,8 @@ fn moes(scene: &Scene) -> Option<[f64; 2]> {
 
 /// Exponent s of N ∝ σ^−s; `None`: a fatigue limit leaves no such law.
 fn stress_exponent(life: &Life) -> Option<f64> {
-    match life.model {
-        LifeModel::Zaretsky | LifeModel::DangVan | LifeModel::Findley => Some(life.stress_exponent),
-        LifeModel::IoannidesHarris if life.limit_pa > 0.0 => None,
-        LifeModel::LundbergPalmgren | LifeModel::IoannidesHarris => {
-            Some(life.stress_exponent / life.weibull_slope)
-        }
-    }
+    let is_limited = life.model == LifeModel::IoannidesHarris && life.limit_pa > 0.0;
+    (!is_limited).then(|| life.exponent())
 }
 
 /// The smooth contact and this one on the line N ∝ σ^−s, and what cycles make of it.

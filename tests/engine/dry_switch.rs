@@ -113,19 +113,26 @@ fn a_speed_turned_down_and_up_again_crosses_the_switch() {
     for speed_m_s in [1e-2, 1e-6, 1e-2] {
         sim.set(Knob::EntrainmentMS, speed_m_s).unwrap();
         let begun = sim.passage_steps();
+        let mut frictions = Vec::new();
         while sim.passage_steps() < begun + 40 {
             sim.step().unwrap();
             assert!(sim.metrics().converged, "{speed_m_s}");
+            frictions.push(sim.metrics().friction_coefficient);
         }
-        seen.push(sim.metrics().clone());
+        // Of one step it depends on where the crests are; the first ones are of the start-up, and of the speed that walks.
+        let last = &frictions[frictions.len() - 20..];
+        let mean = last.iter().sum::<f64>() / 20.0;
+        let least = last.iter().copied().fold(f64::INFINITY, f64::min);
+        println!("{speed_m_s} m/s: friction {mean}, least {least}");
+        seen.push([mean, least]);
     }
-    let [before, slow, after] = &seen[..] else {
+    let [before, slow, after] = seen[..] else {
         unreachable!("three speeds")
     };
     // Dry: all of the load is on contacts, and friction is the boundary's.
-    assert!((slow.friction_coefficient / scene.friction.boundary - 1.0).abs() < 1e-6);
-    assert!(before.friction_coefficient < 0.99 * scene.friction.boundary);
-    let back = after.friction_coefficient / before.friction_coefficient;
+    assert!((slow[0] / scene.friction.boundary - 1.0).abs() < 1e-6);
+    assert!(before[1] < 0.99 * scene.friction.boundary);
+    let back = after[0] / before[0];
     assert!((back - 1.0).abs() < 0.03, "{back}");
 }
 

@@ -165,7 +165,8 @@ fn life_falls_with_sliding_and_with_roughness() {
     falls(&[case(0.5, 1e-7), case(0.5, 2e-7), common, case(0.5, 4.5e-7)]);
 }
 
-/// As in every experiment. (With one viscosity in both directions it does not: `assets/reports/lambda.md`.)
+/// As in every experiment. (With one viscosity in both directions it does not: `assets/reports/lambda.md`.) On 129 nodes the life
+/// at the slowest speed, nearly dry, is 0.05 to 0.08 by where the crests meet the nodes; on 257 it is 0.066.
 #[test]
 fn life_rises_with_the_film() {
     let case = |speed_m_s: f64| {
@@ -174,7 +175,12 @@ fn life_rises_with_the_film() {
             "life.damage_map=off".to_owned(),
             format!("motion.entrainment_m_s={speed_m_s}"),
         ];
-        let out = run("demonstration_quick", &sets);
+        let mesh = if speed_m_s < 0.5 {
+            "demonstration"
+        } else {
+            "demonstration_quick"
+        };
+        let out = run(mesh, &sets);
         let (lambda, life) = (out.lambda_ratio.unwrap(), out.life_relative.unwrap());
         println!("U = {speed_m_s} m/s, lambda {lambda:.3}: life {life:.3}");
         life

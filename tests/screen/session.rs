@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use crate::common::keeper::{Kept, kept_request};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene, Surface};
-use asperity_engine::sim::{Follow, Frame, Knob, Simulation, Stage, State, Summary};
+use asperity_engine::sim::{Follow, Frame, Knob, Simulation, State, Summary};
 use asperity_session::run::{
     AppliedCommand, Assumed, AssumedRange, Command, End, Ending, Request, Session, Settled,
 };
@@ -368,34 +368,6 @@ fn a_sweep_that_is_called_off_ends() {
         std::thread::sleep(Duration::from_millis(2));
     }
     assert!(sweep.take().len() < 20);
-}
-
-/// How soon a life is there after a turn of S on the default scene: printed, for a quiet machine.
-#[test]
-#[ignore = "prints a time"]
-fn time_from_a_turn_of_s_to_its_life() {
-    let scene = Scene::load("demonstration_quick").unwrap();
-    let plan = Plan::new(&scene).unwrap();
-    let mut sim = Simulation::new(&scene, plan, 2).unwrap();
-    let settled = |sim: &Simulation| sim.metrics().life.is_some_and(|life| life.settled);
-    while sim.stage() == Stage::StartUp || !settled(&sim) {
-        sim.step().unwrap();
-    }
-    sim.set(Knob::SlideRoll, 0.55).unwrap();
-    let (began, mut steps, mut first) = (Instant::now(), 0, None);
-    // The scalars are those of the last step until the next one is made.
-    while steps == 0 || !settled(&sim) {
-        sim.step().unwrap();
-        steps += 1;
-        if first.is_none() && sim.metrics().life.is_some_and(|life| life.phases > 0) {
-            first = Some(began.elapsed());
-        }
-    }
-    println!(
-        "S 0.50 to 0.55: first simulated life after {:.2?}, settled after {:.2?} and {steps} steps",
-        first.unwrap_or_default(),
-        began.elapsed()
-    );
 }
 
 /// What drawing costs the simulation: steps of the default scene in four seconds on two threads with and

@@ -2,15 +2,15 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use std::sync::{Arc, Mutex};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use asperity_engine::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Override, Scene};
-use asperity_engine::sim::{Frame, Knob, SimError, Simulation, Summary};
+use asperity_engine::sim::{Frame, Knob, Metrics, SimError, Simulation, Summary};
 use asperity_session::run::{
     Checkpoint, Command, Companion, End, Ending, HandTurn, Ladder, Outcome, Request, Session,
-    Watcher,
+    Settled, Watcher,
 };
 
 fn scene(preset: &str, sets: &[&str]) -> Arc<Scene> {
@@ -431,4 +431,52 @@ fn a_knob_turned_after_ageing_leaves_surfaces_worn_on_every_mesh() {
         coarse.2 > 1e-8 && (fine.2 / coarse.2 - 1.0).abs() < 0.1,
         "{worn:?}"
     );
+}
+
+/// Seconds from `since` until a life has settled that `is_it` takes for what is waited for.
+fn seconds_to(session: &Session, since: Instant, is_it: impl Fn(&Settled) -> bool) -> f64 {
+    while !session.handle.settled().is_some_and(|one| is_it(&one)) && !session.is_finished() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    since.elapsed().as_secs_f64()
+}
+
+/// The default scene as the explorer runs it, with nothing beside: the first settled life, the last mesh's, and the first one
+/// after a turn of each knob, over what a headless run on 65 nodes takes.
+#[test]
+#[ignore = "prints times, for a quiet machine"]
+fn times_to_the_first_life_to_the_last_mesh_and_after_turns() {
+    let began = Instant::now();
+    outcome("demonstration", &["grid.nodes=65"], true);
+    let unit = began.elapsed().as_secs_f64();
+    println!("a run on 65 nodes: {unit:.2} s");
+    let told = |what: &str, seconds: f64| {
+        println!("{what}: {seconds:.2} s, {:.2} times", seconds / unit);
+    };
+    let scene = scene("demonstration", &[]);
+    let began = Instant::now();
+    let session = Session::start(request(&scene, Ending::OnStop, Vec::new())).unwrap();
+    told("first settled life", seconds_to(&session, began, |_| true));
+    told(
+        "last mesh settled",
+        seconds_to(&session, began, |settled| settled.is_last),
+    );
+    let turns: [(Knob, f64, fn(&Metrics) -> f64); 4] = [
+        (Knob::SlideRoll, 0.8, |m| m.slide_roll),
+        (Knob::ForceN, 1000.0, |m| m.load_n),
+        (Knob::Amplitude1M, 4e-7, |m| m.amplitude_1_m),
+        (Knob::EntrainmentMS, 0.3, |m| m.entrainment_m_s),
+    ];
+    for (knob, value, of) in turns {
+        let began = Instant::now();
+        session.handle.send(Command::Set(knob, value));
+        let is_there =
+            |settled: &Settled| (of(&settled.frames[0].metrics) / value - 1.0).abs() < 1e-9;
+        told(
+            &format!("after a turn of {knob:?}"),
+            seconds_to(&session, began, is_there),
+        );
+    }
+    session.handle.send(Command::Stop);
+    session.join().unwrap();
 }

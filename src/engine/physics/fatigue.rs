@@ -62,15 +62,6 @@ impl LifeLaw {
         (life_1.powf(-e) + life_2.powf(-e)).powf(-1.0 / e)
     }
 
-    /// Band of life for a relative error of stress: `L (1 ± error)^{∓c}`, lower and upper end.
-    pub fn band(self, life: f64, stress_error: f64) -> (f64, f64) {
-        let error = stress_error.abs().min(0.99);
-        (
-            life * (1.0 + error).powf(-self.stress_exponent),
-            life * (1.0 - error).powf(-self.stress_exponent),
-        )
-    }
-
     /// Factors of relative life.
     pub fn factors(self, n: CyclePair, ln: IntegralLogs) -> LifeFactors {
         let cycle = n.reference / n.scene;
@@ -176,13 +167,6 @@ mod tests {
             same.relative, 1.0,
             "a smooth frictionless scene is its own reference"
         );
-    }
-
-    #[test]
-    fn stress_error_widens_the_band_by_c() {
-        let (low, high) = LifeLaw::default().band(1.0, 0.01);
-        println!("1 % of stress: life {low:.3} to {high:.3}");
-        assert!((low - 0.902).abs() < 1e-3 && (high - 1.109).abs() < 1e-3);
     }
 
     #[test]

@@ -188,6 +188,12 @@ impl Life {
         }
     }
 
+    /// Exponent m of life against stress, N ∝ σ^−m, by the model's own equation; with a fatigue limit that of stress far above it.
+    pub fn exponent(&self) -> f64 {
+        // What a limit is in units of pressure is nothing to the exponent.
+        self.equation(self.model, 1.0).life_exponent(self.law())
+    }
+
     /// Cycles and Hertz pressure (Pa) of the calibration point.
     pub fn calibration(&self) -> Option<(f64, f64)> {
         self.calibration_cycles.zip(self.calibration_pressure_pa)

@@ -220,8 +220,9 @@ impl LifeStage {
         }
         let damage = by_damage.then_some((&self.damage, covered));
         let meter = self.variants[0].meter();
+        let sensitivity = (self.asked.exponent(), stress_error);
         self.settling
-            .test(meter, stress_error, repeat, damage, self.is_smooth);
+            .test(meter, sensitivity, repeat, damage, self.is_smooth);
     }
 
     /// `ln Σ_k n_k^e J_k` of a body by its damage.
@@ -277,7 +278,7 @@ impl LifeStage {
         let scene = &self.variants[0];
         let lives = self.lives(scene, basis, now, counting)?;
         let (body, f) = self.governing(lives)?;
-        let (low, high) = band(self.law, f.relative, now.stress_error);
+        let (low, high) = band(self.asked.exponent(), f.relative, now.stress_error);
         let unsettled = self.settling.wander();
         let (low, high) = (low / unsettled.exp(), high * unsettled.exp());
         let by = |basis: CycleBasis| {
@@ -337,9 +338,34 @@ fn basis_factor(basis: CycleBasis, body: BodyId, slide_roll: f64) -> f64 {
 /// with them. Measured on the first mesh of 52 scenes, six to seventeen nodes a wave: .28 at most (`asperity study bands`).
 const MISSED: f64 = 0.35;
 
-/// The ends of a life by the error of its stress: no more than a share of what it is off that of the smooth contact.
-fn band(law: LifeLaw, life: f64, stress_error: f64) -> (f64, f64) {
-    let (low, high) = law.band(life, stress_error);
+/// The ends of a life by the error of its stress, `L (1 ± error)^{∓m}`: no more than a share of what it is off that of the
+/// smooth contact.
+fn band(exponent: f64, life: f64, stress_error: f64) -> (f64, f64) {
+    let error = stress_error.abs().min(0.99);
+    let [low, high] = [1.0 + error, 1.0 - error].map(|stress| life * stress.powf(-exponent));
     let most = MISSED * life.ln().abs();
     (low.max(life * (-most).exp()), high.min(life * most.exp()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::band;
+    use crate::scene::{Life, LifeModel};
+
+    #[test]
+    fn stress_error_widens_the_band_by_the_models_exponent() {
+        for (model, low, high) in [
+            (LifeModel::Zaretsky, 0.9023, 1.1094),
+            (LifeModel::LundbergPalmgren, 0.9116, 1.0980),
+        ] {
+            let life = Life {
+                model,
+                ..Life::default()
+            };
+            // A smooth contact's life tells nothing of its error; far from it no share holds the ends.
+            let ends = band(life.exponent(), 1e-3, 0.01);
+            println!("{model:?}: 1 % of stress is {ends:?} of life 1e-3");
+            assert!((ends.0 / 1e-3 - low).abs() < 1e-4 && (ends.1 / 1e-3 - high).abs() < 1e-4);
+        }
+    }
 }

@@ -6,7 +6,9 @@
 //! drift = max(Σ|P(w+T) − P(w)|/ΣP(w), Σ|H(w+T) − H(w)|/ΣH(w))            over the nodes under pressure
 //! ```
 //! Both rough surfaces are in the same place again after a distance T, so a contact that has forgotten how it
-//! began repeats itself. T is no whole number of steps in general: the fields at w + T are interpolated
+//! began repeats itself, and so does what its mesh makes of it, where crests meet the nodes anew in the same places: after
+//! a whole number of steps. Fixed steps are stretched or shortened by up to 1 % for that, as few periods m T as that takes
+//! together. While a knob walks, and with adaptive steps, T is no whole number of them: the fields at w + T are interpolated
 //! between four steps (cubic Lagrange), which costs 0.1 to 0.5 % of a ripple of ten steps. Where no T up to
 //! 16 a exists the passage is quasi-periodic and never repeats; then the means of film, pressure and contact
 //! over 4 a are compared with those of the 4 a before, which is less, and is named so. Smooth or
@@ -31,6 +33,9 @@ const LEVEL: f64 = 1e-2;
 const FEWEST_STEPS: f64 = 6.0;
 /// Relative mismatch of a common period.
 const MATCH: f64 = 1e-9;
+/// Part of a step by which it may be stretched or shortened for a period to be a whole number of steps: with more the shift
+/// of the film by fractions of a node would be felt (`solve::shift`).
+const STRETCHED: f64 = 1e-2;
 /// Periods of one wave that are tried.
 const MOST_CRESTS: u32 = 4096;
 
@@ -177,11 +182,33 @@ impl Orbit {
         }
     }
 
-    /// Takes a step that ended at `distance` after a length `step`.
+    /// The length nearest to `step` of which as few periods as that takes are a whole number; `step` itself where nothing
+    /// repeats.
+    pub(super) fn fitting(&self, step: f64) -> f64 {
+        match self.rhythm {
+            Rhythm::Orbit => {
+                let rounds = self.rounds(step);
+                let steps = (rounds / step).round();
+                let fitted = rounds / steps;
+                let is_another = fits(rounds, step) && (fitted / step - 1.0).abs() > MATCH;
+                if is_another { fitted } else { step }
+            }
+            Rhythm::Steady | Rhythm::Statistics => step,
+        }
+    }
+
+    /// The fewest periods together that fixed steps of about `step` fit; one, where none up to [`LONGEST`] do.
+    fn rounds(&self, step: f64) -> f64 {
+        let some = (1..=MOST_CRESTS).map(|m| f64::from(m) * self.period);
+        let mut some = some.take_while(|rounds| *rounds <= LONGEST);
+        some.find(|rounds| fits(*rounds, step))
+            .unwrap_or(self.period)
+    }
+
+    /// Takes a step that ended at `distance` after a length `step`; `fixed`: length of fixed steps as they are asked for.
     pub(super) fn push(
         &mut self,
-        distance: f64,
-        step: f64,
+        (distance, step, fixed): (f64, f64, Option<f64>),
         contact: &ContactState,
         metrics: &Metrics,
     ) {
@@ -191,7 +218,8 @@ impl Orbit {
         }
         let (pressure, film) = (&contact.pressure, &contact.film);
         if self.rhythm == Rhythm::Orbit {
-            (self.last_period).push(distance, step, self.period, contact.h0, pressure);
+            let rounds = fixed.map_or(self.period, |fixed| self.rounds(fixed));
+            (self.last_period).push(distance, step, rounds, contact.h0, pressure);
         }
         self.ring.rotate_left(1);
         self.ring[3].take(distance, pressure, film);
@@ -207,9 +235,16 @@ impl Orbit {
         }
     }
 
-    /// Guess of a step that ends at `distance`, from a period ago: H0, and the pressure in `guess`.
-    pub(super) fn guess(&self, distance: f64, guess: &mut [f64]) -> Option<f64> {
-        self.last_period.guess(distance, self.period, guess)
+    /// Guess of a step that ends at `distance`, from a period ago or a few: H0, and the pressure in `guess`; `fixed`: as
+    /// pushed.
+    pub(super) fn guess(
+        &self,
+        distance: f64,
+        fixed: Option<f64>,
+        guess: &mut [f64],
+    ) -> Option<f64> {
+        let rounds = fixed.map_or(self.period, |fixed| self.rounds(fixed));
+        self.last_period.guess(distance, rounds, guess)
     }
 
     /// The last period, where the passage may repeat.
@@ -295,6 +330,12 @@ impl Orbit {
             repeats: self.drift.is_some_and(|drift| drift <= limit),
         }
     }
+}
+
+/// Whether a whole number of steps, each as good as `step`, makes `rounds`.
+fn fits(rounds: f64, step: f64) -> bool {
+    let steps = rounds / step;
+    (steps - steps.round()).abs() <= STRETCHED * steps.round()
 }
 
 /// The multiple of `period` over which steps of `step` compare best: nearly a whole number of them, where
@@ -389,7 +430,7 @@ mod tests {
             orbit.listen(frequencies, 4.0);
             contact.pressure.copy_from_slice(&field);
             contact.film.copy_from_slice(&field);
-            orbit.push(distance, step, &contact, &metrics);
+            orbit.push((distance, step, None), &contact, &metrics);
         }
         orbit.repeat(1.0)
     }
@@ -407,6 +448,29 @@ mod tests {
         }
         let dying = drift([2.0, 0.0, 0.0, 0.0], 2.0, 0.03125, 1e3);
         assert!(!dying.repeats, "{dying:?}");
+    }
+
+    #[test]
+    fn a_whole_number_of_fixed_steps_makes_as_few_periods_as_that_takes() {
+        let fitting = |frequencies, step: f64| {
+            let mut orbit = Orbit::new(1, 4.0);
+            orbit.listen(frequencies, 4.0);
+            orbit.fitting(step)
+        };
+        let rolls = [2.0, 0.0, 0.0, 0.0];
+        // A period of 0.5: 17 steps of 0.0302 are 2.6 % off, two periods are 33; of 0.031 it is 16; 16 of a 32nd are it.
+        let near = |one: f64, two: f64| assert!((one / two - 1.0).abs() < 1e-12, "{one} {two}");
+        near(fitting(rolls, 0.0302), 1.0 / 33.0);
+        near(fitting(rolls, 0.031), 0.5 / 16.0);
+        assert_eq!(fitting(rolls, 1.0 / 32.0), 1.0 / 32.0);
+        // Both bodies' waves: three crests and five, a period of 1.7.
+        near(
+            fitting([3.0 / 1.7, 5.0 / 1.7, 0.0, 0.0], 0.03125),
+            1.7 / 54.0,
+        );
+        // Nothing repeats, nothing moves.
+        assert_eq!(fitting([2.0, 3.0_f64.sqrt(), 0.0, 0.0], 0.03), 0.03);
+        assert_eq!(fitting([0.0; 4], 0.03), 0.03);
     }
 
     #[test]

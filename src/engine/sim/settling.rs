@@ -53,11 +53,12 @@ impl Settling {
         (self.settled, self.wander) = (false, 0.0);
     }
 
-    /// Takes what the meter's mean did, after a sample.
+    /// Takes what the meter's mean did, after a sample; `exponent`: of life against stress
+    /// ([`crate::scene::Life::exponent`]).
     pub(super) fn test(
         &mut self,
         meter: &LifeMeter,
-        stress_error: f64,
+        (exponent, stress_error): (f64, f64),
         repeat: Option<Repeat>,
         damage: Option<(&Marks, f64)>,
         is_smooth: bool,
@@ -68,7 +69,7 @@ impl Settling {
             self.settled = true;
             return;
         }
-        self.judge(meter, stress_error, repeat, damage);
+        self.judge(meter, (exponent, stress_error), repeat, damage);
         if !self.settled {
             self.wander = (self.wander).max(meter.unsure() / self.law.weibull_slope);
         }
@@ -77,7 +78,7 @@ impl Settling {
     fn judge(
         &mut self,
         meter: &LifeMeter,
-        stress_error: f64,
+        (exponent, stress_error): (f64, f64),
         repeat: Option<Repeat>,
         damage: Option<(&Marks, f64)>,
     ) {
@@ -86,10 +87,10 @@ impl Settling {
             return;
         }
         let life = |ln_integral: f64| ln_integral / self.law.weibull_slope;
-        let band = self.law.stress_exponent * stress_error.max(2.0 * self.tolerance);
+        let band = exponent * stress_error.max(2.0 * self.tolerance);
         let comes_back = repeat.is_some_and(|repeat| {
             let drift = repeat.drift.filter(|_| repeat.rhythm != Rhythm::Statistics);
-            drift.is_some_and(|drift| self.law.stress_exponent * drift <= 0.5 * band)
+            drift.is_some_and(|drift| exponent * drift <= 0.5 * band)
         });
         if repeat.is_some_and(|repeat| repeat.rhythm == Rhythm::Statistics) {
             let marks = damage.map_or(meter.marks(), |(marks, _)| marks);

@@ -176,6 +176,14 @@ impl SimPlan {
         self.stepping.usual() * self.decided.domain.dx_a()
     }
 
+    /// The same where steps are fixed; `None`: they go by their error.
+    pub(super) fn fixed_dt(&self) -> Option<f64> {
+        match self.stepping {
+            Stepping::Fixed(_) => Some(self.usual_dt()),
+            Stepping::Adaptive { .. } => None,
+        }
+    }
+
     /// Length of the usual step on a grid of `nodes` per side, in a.
     fn usual_step(&self, nodes: usize) -> f64 {
         self.stepping.usual() * (self.length() / (nodes - 1) as f64)

@@ -30,7 +30,7 @@ use thiserror::Error;
 use super::ladder::fewest_wave_nodes;
 use super::session::RunError;
 use asperity_engine::plan::{Plan, PlanError};
-use asperity_engine::scene::{Order, Scene, Warming};
+use asperity_engine::scene::{Life, Order, Scene, Warming};
 use asperity_engine::sim::Summary;
 
 /// Fewest nodes per side that a run on half the nodes makes sense on.
@@ -155,7 +155,7 @@ const SAMPLED: f64 = 0.1;
 /// Error of ln `life` on a mesh by `plan`, from that on the mesh `below`.
 pub(super) fn life_error(life: f64, below: f64, scene: &Scene, plan: &Plan) -> f64 {
     let apart = (life / below).ln().abs();
-    let exponent = scene.life.as_ref().map_or(0.0, |life| life.stress_exponent);
+    let exponent = scene.life.as_ref().map_or(0.0, Life::exponent);
     let ripple = (std::f64::consts::TAU / fewest_wave_nodes(plan)).powi(2) / 48.0;
     apart + (exponent * ripple).min(SAMPLED * life.ln().abs())
 }

@@ -154,7 +154,8 @@ fn advance(
     let [own, extrapolated] = &mut work.guesses;
     let grid = &work.solver.grid;
     let in_passage = state.phase == Phase::Passage;
-    let guessed = in_passage.then(|| (state.orbit).guess(state.distance + nodes * grid.dx, own));
+    let guessed = in_passage
+        .then(|| (state.orbit).guess(state.distance + nodes * grid.dx, plan.fixed_dt(), own));
     let guessed = guessed.flatten();
     if guessed.is_some() {
         let history = &state.contact.history;
@@ -200,6 +201,18 @@ fn advance(
     Ok(())
 }
 
+/// Length of a fixed step of the passage, in nodes: the usual one, fitted to the period of the waves once no knob walks. Not
+/// where surfaces age: their columns meet the nodes in ever other places, which evens out in the heights what a mesh errs by.
+pub(super) fn fitting_nodes(plan: &SimPlan, state: &State) -> f64 {
+    let usual = plan.stepping.usual();
+    match plan.fixed_dt() {
+        Some(dt) if !state.drive.is_walking() && plan.scene.age.is_none() => {
+            usual * (state.orbit.fitting(dt) / dt)
+        }
+        Some(_) | None => usual,
+    }
+}
+
 /// How the next step is chosen, and its length in nodes: the start-up keeps to the usual one.
 fn next_step(plan: &SimPlan, state: &State) -> (Stepping, f64) {
     if let Phase::Settle { long: 1.., .. } = state.phase {
@@ -223,5 +236,11 @@ fn next_step(plan: &SimPlan, state: &State) -> (Stepping, f64) {
         Some(_) => 1.0 / (crests.fold(0.0, f64::max) * sliding * plan.decided.dx_m),
         None => f64::INFINITY,
     };
-    (plan.stepping, state.pace.next(plan.stepping, crest))
+    match plan.stepping {
+        Stepping::Fixed(_) => {
+            let nodes = fitting_nodes(plan, state);
+            (Stepping::Fixed(nodes), nodes)
+        }
+        Stepping::Adaptive { .. } => (plan.stepping, state.pace.next(plan.stepping, crest)),
+    }
 }
