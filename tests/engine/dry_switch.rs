@@ -133,7 +133,7 @@ fn a_speed_turned_down_and_up_again_crosses_the_switch() {
     assert!((slow[0] / scene.friction.boundary - 1.0).abs() < 1e-6);
     assert!(before[1] < 0.99 * scene.friction.boundary);
     let back = after[0] / before[0];
-    assert!((back - 1.0).abs() < 0.03, "{back}");
+    assert!((back - 1.0).abs() < 0.01, "{back}");
 }
 
 #[test]

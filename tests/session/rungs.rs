@@ -433,6 +433,9 @@ fn a_knob_turned_after_ageing_leaves_surfaces_worn_on_every_mesh() {
     );
 }
 
+/// What of a frame a knob turns.
+type Reading = fn(&Metrics) -> f64;
+
 /// Seconds from `since` until a life has settled that `is_it` takes for what is waited for.
 fn seconds_to(session: &Session, since: Instant, is_it: impl Fn(&Settled) -> bool) -> f64 {
     while !session.handle.settled().is_some_and(|one| is_it(&one)) && !session.is_finished() {
@@ -461,7 +464,7 @@ fn times_to_the_first_life_to_the_last_mesh_and_after_turns() {
         "last mesh settled",
         seconds_to(&session, began, |settled| settled.is_last),
     );
-    let turns: [(Knob, f64, fn(&Metrics) -> f64); 4] = [
+    let turns: [(Knob, f64, Reading); 4] = [
         (Knob::SlideRoll, 0.8, |m| m.slide_roll),
         (Knob::ForceN, 1000.0, |m| m.load_n),
         (Knob::Amplitude1M, 4e-7, |m| m.amplitude_1_m),
