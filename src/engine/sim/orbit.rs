@@ -8,7 +8,7 @@
 //! Both rough surfaces are in the same place again after a distance T, so a contact that has forgotten how it
 //! began repeats itself, and so does what its mesh makes of it, where crests meet the nodes anew in the same places: after
 //! a whole number of steps. Fixed steps are stretched or shortened by up to 1 % for that, as few periods m T as that takes
-//! together. While a knob walks, and with adaptive steps, T is no whole number of them: the fields at w + T are interpolated
+//! together. While a knob walks, with adaptive steps and where surfaces age T is no whole number of them: the fields at w + T are interpolated
 //! between four steps (cubic Lagrange), which costs 0.1 to 0.5 % of a ripple of ten steps. Where no T up to
 //! 16 a exists the passage is quasi-periodic and never repeats; then the means of film, pressure and contact
 //! over 4 a are compared with those of the 4 a before, which is less, and is named so. Smooth or
@@ -205,10 +205,11 @@ impl Orbit {
             .unwrap_or(self.period)
     }
 
-    /// Takes a step that ended at `distance` after a length `step`; `fixed`: length of fixed steps as they are asked for.
+    /// Takes a step that ended at `distance` after a length `step`; `usual`: length of steps that are
+    /// fitted to the period, before that.
     pub(super) fn push(
         &mut self,
-        (distance, step, fixed): (f64, f64, Option<f64>),
+        (distance, step, usual): (f64, f64, Option<f64>),
         contact: &ContactState,
         metrics: &Metrics,
     ) {
@@ -218,7 +219,7 @@ impl Orbit {
         }
         let (pressure, film) = (&contact.pressure, &contact.film);
         if self.rhythm == Rhythm::Orbit {
-            let rounds = fixed.map_or(self.period, |fixed| self.rounds(fixed));
+            let rounds = usual.map_or(self.period, |usual| self.rounds(usual));
             (self.last_period).push(distance, step, rounds, contact.h0, pressure);
         }
         self.ring.rotate_left(1);
@@ -235,15 +236,15 @@ impl Orbit {
         }
     }
 
-    /// Guess of a step that ends at `distance`, from a period ago or a few: H0, and the pressure in `guess`; `fixed`: as
+    /// Guess of a step that ends at `distance`, from a period ago or a few: H0, and the pressure in `guess`; `usual`: as
     /// pushed.
     pub(super) fn guess(
         &self,
         distance: f64,
-        fixed: Option<f64>,
+        usual: Option<f64>,
         guess: &mut [f64],
     ) -> Option<f64> {
-        let rounds = fixed.map_or(self.period, |fixed| self.rounds(fixed));
+        let rounds = usual.map_or(self.period, |usual| self.rounds(usual));
         self.last_period.guess(distance, rounds, guess)
     }
 

@@ -176,10 +176,11 @@ impl SimPlan {
         self.stepping.usual() * self.decided.domain.dx_a()
     }
 
-    /// The same where steps are fixed; `None`: they go by their error.
-    pub(super) fn fixed_dt(&self) -> Option<f64> {
+    /// The same where steps may be fitted to the period of the waves; `None`: they go by their error, or the surfaces age:
+    /// columns that meet the nodes in ever other places even out in the heights what a mesh errs by.
+    pub(super) fn fitted_dt(&self) -> Option<f64> {
         match self.stepping {
-            Stepping::Fixed(_) => Some(self.usual_dt()),
+            Stepping::Fixed(_) => self.scene.age.is_none().then(|| self.usual_dt()),
             Stepping::Adaptive { .. } => None,
         }
     }

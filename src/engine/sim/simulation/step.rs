@@ -155,7 +155,7 @@ fn advance(
     let grid = &work.solver.grid;
     let in_passage = state.phase == Phase::Passage;
     let guessed = in_passage
-        .then(|| (state.orbit).guess(state.distance + nodes * grid.dx, plan.fixed_dt(), own));
+        .then(|| (state.orbit).guess(state.distance + nodes * grid.dx, plan.fitted_dt(), own));
     let guessed = guessed.flatten();
     if guessed.is_some() {
         let history = &state.contact.history;
@@ -201,14 +201,11 @@ fn advance(
     Ok(())
 }
 
-/// Length of a fixed step of the passage, in nodes: the usual one, fitted to the period of the waves once no knob walks. Not
-/// where surfaces age: their columns meet the nodes in ever other places, which evens out in the heights what a mesh errs by.
-pub(super) fn fitting_nodes(plan: &SimPlan, state: &State) -> f64 {
+/// Usual length of a step of the passage, in nodes: fitted to the period of the waves where it may be, once no knob walks.
+pub(super) fn fitted_nodes(plan: &SimPlan, state: &State) -> f64 {
     let usual = plan.stepping.usual();
-    match plan.fixed_dt() {
-        Some(dt) if !state.drive.is_walking() && plan.scene.age.is_none() => {
-            usual * (state.orbit.fitting(dt) / dt)
-        }
+    match plan.fitted_dt() {
+        Some(dt) if !state.drive.is_walking() => usual * (state.orbit.fitting(dt) / dt),
         Some(_) | None => usual,
     }
 }
@@ -236,11 +233,9 @@ fn next_step(plan: &SimPlan, state: &State) -> (Stepping, f64) {
         Some(_) => 1.0 / (crests.fold(0.0, f64::max) * sliding * plan.decided.dx_m),
         None => f64::INFINITY,
     };
-    match plan.stepping {
-        Stepping::Fixed(_) => {
-            let nodes = fitting_nodes(plan, state);
-            (Stepping::Fixed(nodes), nodes)
-        }
-        Stepping::Adaptive { .. } => (plan.stepping, state.pace.next(plan.stepping, crest)),
-    }
+    let stepping = match plan.stepping {
+        Stepping::Fixed(_) => Stepping::Fixed(fitted_nodes(plan, state)),
+        adaptive @ Stepping::Adaptive { .. } => adaptive,
+    };
+    (stepping, state.pace.next(stepping, crest))
 }

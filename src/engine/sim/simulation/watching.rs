@@ -1,7 +1,7 @@
 //! What is looked at after each step: traction, stress, counts, life, scalars.
 
 use super::present::{has_reference_of_now, publish_lubrication, stress_error_now};
-use super::step::fitting_nodes;
+use super::step::fitted_nodes;
 use crate::physics::cycles::speed_ratios;
 use crate::physics::felt::felt_contacts;
 use crate::plan::TimeDependence;
@@ -120,7 +120,7 @@ fn sample_life(plan: &SimPlan, state: &mut State, work: &mut Work, stats: &mut S
         return;
     };
     let every = plan.decided.life.map_or(f64::INFINITY, |life| {
-        life.volume_every_steps as f64 * fitting_nodes(plan, state) * work.solver.grid.dx
+        life.volume_every_steps as f64 * fitted_nodes(plan, state) * work.solver.grid.dx
     });
     // By the distance at the step's beginning, so that the first step of a passage is looked at.
     let due = state.phase == Phase::Passage && state.distance >= state.next_volume - 1e-9;
@@ -166,7 +166,7 @@ pub(super) fn look_for_orbit(
     }
     if state.motion.is_flushed() {
         let step = state.distance - before;
-        let taken = (state.distance, step, plan.fixed_dt());
+        let taken = (state.distance, step, plan.fitted_dt());
         (state.orbit).push(taken, &state.contact, &state.metrics);
     }
     let second_per_a = plan.scaling.a_m / state.drive.get(Knob::EntrainmentMS).now;
