@@ -69,6 +69,12 @@ impl Resolution {
         waves.chain(self.long_step(at)).collect()
     }
 
+    /// Whether every wave along x has the nodes that resolve its deformation.
+    pub(crate) fn resolves_waves(&self) -> bool {
+        let mut waves = self.nodes.iter().flatten();
+        waves.all(|[along, _]| *along >= NODES_GOOD)
+    }
+
     /// Nodes of the waves of a body that is rough.
     fn rough(&self, body: u8, at: &KnobsAt) -> Option<[f64; 2]> {
         let index = usize::from(body - 1);

@@ -5,14 +5,14 @@
 //! T     = least distance with T f_i whole for every wave of both bodies       (commensurate: an orbit)
 //! drift = max(Σ|P(w+T) − P(w)|/ΣP(w), Σ|H(w+T) − H(w)|/ΣH(w))            over the nodes under pressure
 //! ```
-//! Both rough surfaces are in the same place again after a distance T, so a contact that has forgotten how it
-//! began repeats itself, and so does what its mesh makes of it, where crests meet the nodes anew in the same places: after
-//! a whole number of steps. Fixed steps are stretched or shortened by up to 1 % for that, as few periods m T as that takes
-//! together. While a knob walks, with adaptive steps and where surfaces age T is no whole number of them: the fields at w + T are interpolated
-//! between four steps (cubic Lagrange), which costs 0.1 to 0.5 % of a ripple of ten steps. Where no T up to
-//! 16 a exists the passage is quasi-periodic and never repeats; then the means of film, pressure and contact
-//! over 4 a are compared with those of the 4 a before, which is less, and is named so. Smooth or
-//! longitudinal surfaces: steady, compared over a distance of a.
+//! Both rough surfaces are in the same place again after a distance T, so a contact that has forgotten how it began
+//! repeats itself, and so does what its mesh makes of it, where crests meet the nodes anew in the same places: after a
+//! whole number of steps. Fixed steps are stretched or shortened by up to 1 % for that, as few periods m T as that
+//! takes together. While a knob walks, with adaptive steps, where surfaces age and where waves have few nodes T is no
+//! whole number of them: the fields at w + T are interpolated between four steps (cubic Lagrange), which costs 0.1 to
+//! 0.5 % of a ripple of ten steps. Where no T up to 16 a exists the passage is quasi-periodic and never repeats; then
+//! the means of film, pressure and contact over 4 a are compared with those of the 4 a before, which is less, and is
+//! named so. Smooth or longitudinal surfaces: steady, compared over a distance of a.
 
 use serde::{Deserialize, Serialize};
 

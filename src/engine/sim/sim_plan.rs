@@ -177,10 +177,13 @@ impl SimPlan {
     }
 
     /// The same where steps may be fitted to the period of the waves; `None`: they go by their error, or the surfaces age:
-    /// columns that meet the nodes in ever other places even out in the heights what a mesh errs by.
+    /// columns that meet the nodes in ever other places even out in the heights what a mesh errs by. So do crests of few
+    /// nodes, which a fitted period has at few places: by phase, 65 nodes (6.8 a wave) say .057 to .086 of the default scene
+    /// with fitted steps and .075 to .097 without, 129 nodes .093 to .101 with them and without.
     pub(super) fn fitted_dt(&self) -> Option<f64> {
+        let fits = self.scene.age.is_none() && self.decided.resolution.resolves_waves();
         match self.stepping {
-            Stepping::Fixed(_) => self.scene.age.is_none().then(|| self.usual_dt()),
+            Stepping::Fixed(_) => fits.then(|| self.usual_dt()),
             Stepping::Adaptive { .. } => None,
         }
     }
