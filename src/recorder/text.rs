@@ -330,8 +330,13 @@ fn push_table(text: &mut String, frame: &Frame) {
     row("contact", format!("{area} % of area, {load} % of load"));
     row("regime", m.regime.name().to_owned());
     let friction = sig(m.friction_coefficient, 3);
+    // What is worn has a curve of its own (`ages.rs`).
+    let lambda_of = frame.cycles.map_or("λ", |_| "λ when new");
     match m.lambda_ratio {
-        Some(lambda) => row("friction, λ", format!("{friction}, {}", sig(lambda, 3))),
+        Some(lambda) => row(
+            &format!("friction, {lambda_of}"),
+            format!("{friction}, {}", sig(lambda, 3)),
+        ),
         None => row("friction", friction),
     }
     if let (Some(stress), Some(depth)) = (m.sigma_eff_max_pa, m.sigma_eff_max_depth_m) {

@@ -245,15 +245,15 @@ impl GriddedMap {
 impl GriddedWaves {
     fn new(grid: &Grid, surface: &Surface, a_m: f64, heading: Heading) -> Option<Self> {
         use std::f64::consts::TAU;
-        let Surface::Sinusoid {
-            wavelength_x_m,
-            wavelength_y_m,
-            angle_deg,
-            phase_deg,
-            ..
-        } = *surface
-        else {
-            return None;
+        let (wavelength_x_m, wavelength_y_m, angle_deg, phase_deg) = match *surface {
+            Surface::Sinusoid {
+                wavelength_x_m,
+                wavelength_y_m,
+                angle_deg,
+                phase_deg,
+                ..
+            } => (wavelength_x_m, wavelength_y_m, angle_deg, phase_deg),
+            Surface::Smooth {} | Surface::Random(_) | Surface::HeightMap { .. } => return None,
         };
         let (kx, ky) = (TAU * a_m / wavelength_x_m, TAU * a_m / wavelength_y_m);
         // A right angle has no component of 6e-17.

@@ -308,7 +308,9 @@ fn turn_lay(scene: &mut Scene, body: usize, by: i32) -> Result<(), SceneError> {
     let height = |body: usize| {
         let height_m = match surface(scene, body) {
             Surface::Random(random) => SQRT_2 * random.rq_m,
-            other => other.amplitude_m(),
+            other @ (Surface::Smooth {} | Surface::Sinusoid { .. } | Surface::HeightMap { .. }) => {
+                other.amplitude_m()
+            }
         };
         Some(height_m).filter(|height_m| *height_m > 0.0)
     };

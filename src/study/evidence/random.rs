@@ -126,8 +126,9 @@ impl AssumedRoughness {
         let mut keys = point.set.clone();
         for (body, of) in [(1, &scene.body_1.surface), (2, &scene.body_2.surface)] {
             keys.push(format!("body_{body}.hardness_pa={:e}", self.hardness_pa));
-            let Surface::Sinusoid { amplitude_m, .. } = of else {
-                continue;
+            let amplitude_m = match of {
+                Surface::Sinusoid { amplitude_m, .. } => amplitude_m,
+                Surface::Smooth {} | Surface::Random(_) | Surface::HeightMap { .. } => continue,
             };
             let surface = format!("body_{body}.surface");
             let seed = pair + if body == 1 { 0 } else { 1_000_000 };

@@ -97,7 +97,9 @@ impl Choice {
             }
             Self::Amplitude(of) => Some(match surface(scene, of) {
                 Surface::Random(random) => random.rq_m,
-                other => other.amplitude_m(),
+                other @ (Surface::Smooth {}
+                | Surface::Sinusoid { .. }
+                | Surface::HeightMap { .. }) => other.amplitude_m(),
             })
             .filter(|height_m| *height_m > 0.0),
             Self::Wavelength(of) => wavelength(surface(scene, of)),
