@@ -108,20 +108,23 @@ fn nothing_jumps_where_the_film_is_given_up() {
 #[test]
 fn a_speed_turned_down_and_up_again_crosses_the_switch() {
     let scene = scene(1e-2, &["body_1.surface.wavelength_x_m=3e-4"]);
-    let mut sim = Simulation::new(&scene, Plan::new(&scene).unwrap(), 1).unwrap();
+    let plan = Plan::new(&scene).unwrap();
+    // Three waves of body 1 and five of body 2 pass while oil moves by four: S = 0.5.
+    let period = (4.0 * 3e-4 / plan.dx_m).round() as usize;
+    let mut sim = Simulation::new(&scene, plan, 1).unwrap();
     let mut seen = Vec::new();
     for speed_m_s in [1e-2, 1e-6, 1e-2] {
         sim.set(Knob::EntrainmentMS, speed_m_s).unwrap();
         let begun = sim.passage_steps();
         let mut frictions = Vec::new();
-        while sim.passage_steps() < begun + 40 {
+        while sim.passage_steps() < begun + 20 + period as u64 {
             sim.step().unwrap();
             assert!(sim.metrics().converged, "{speed_m_s}");
             frictions.push(sim.metrics().friction_coefficient);
         }
         // Of one step it depends on where the crests are; the first ones are of the start-up, and of the speed that walks.
-        let last = &frictions[frictions.len() - 20..];
-        let mean = last.iter().sum::<f64>() / 20.0;
+        let last = &frictions[frictions.len() - period..];
+        let mean = last.iter().sum::<f64>() / period as f64;
         let least = last.iter().copied().fold(f64::INFINITY, f64::min);
         println!("{speed_m_s} m/s: friction {mean}, least {least}");
         seen.push([mean, least]);

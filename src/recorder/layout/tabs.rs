@@ -17,7 +17,7 @@ use crate::research;
 use crate::series::{by_itself, entity};
 use crate::shown::{Knobs, ShownViews};
 use asperity_engine::scene::ContactKind;
-use asperity_engine::sim::Dimension;
+use asperity_engine::sim::{Dimension, named};
 use asperity_picture::Subject;
 
 /// All tabs of a run.
@@ -436,10 +436,11 @@ fn scalars(views: &mut Views, shown: &ShownViews) -> ContainerLike {
         };
         all.push(views.named(title, &[YIELDED]));
     }
-    // What is of heat has a tab of its own, and the one pressure among them is the shear of the surfaces.
+    // What is of heat has a tab of its own, and nothing shears the surfaces of bodies that roll.
+    let shear = const { named("traction_max_pa") };
     let known = by_itself()
         .filter(|quantity| quantity.dimension != Dimension::Temperature)
-        .filter(|quantity| quantity.dimension != Dimension::Pressure || shown.slides());
+        .filter(|quantity| quantity.name != shear.name || shown.slides());
     for quantity in known {
         all.push(views.single(&quantity.label(kind), &entity(quantity, kind)));
     }

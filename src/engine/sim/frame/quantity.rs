@@ -181,7 +181,10 @@ impl Quantity {
         }
     }
 
+    /// # Panics
+    /// Of what only a frame has, of which a summary knows nothing: where it is compiled.
     pub(super) const fn over(self, over: &'static [(Over, &'static str)]) -> Self {
+        assert!(!matches!(self.source, Source::Frame(_)));
         Self { over, ..self }
     }
 
