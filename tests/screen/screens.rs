@@ -512,6 +512,19 @@ fn a_passage_that_repeats_is_replayed_and_a_knob_ends_it() {
 }
 
 #[test]
+fn the_life_of_a_replay_is_that_of_its_whole_period() {
+    let mut app = running(plain());
+    let mut period = settled(&State::default());
+    let last = Arc::get_mut(period.frames.last_mut().unwrap()).unwrap();
+    last.metrics.life.as_mut().unwrap().life_relative = 0.123;
+    app.take_settled(Some(Arc::new(period)));
+    app.advance(Duration::from_millis(100));
+    let on_screen = app.frame().unwrap().metrics.life.unwrap();
+    assert_ne!(on_screen.life_relative, 0.123, "not its last frame");
+    assert_eq!(app.life().unwrap().life_relative, 0.123);
+}
+
+#[test]
 fn swept_lives_fill_the_curve_with_their_bands() {
     let mut app = running(plain());
     let dots = |app: &App| text(app, 160, 48).matches('•').count();

@@ -331,9 +331,12 @@ impl App {
         }
     }
 
-    /// The life that the frame carries.
+    /// The life that the frame carries; of a period that is replayed that of the whole, whose mean its frames lead up to.
     pub fn life(&self) -> Option<LifeEstimate> {
-        self.frame().and_then(|frame| frame.metrics.life)
+        let whole = self.replay.playing.as_ref();
+        let whole = whole.and_then(|replay| replay.settled().frames.last());
+        let frame = whole.or_else(|| self.frame());
+        frame.and_then(|frame| frame.metrics.life)
     }
 
     /// The centre line over the way that led to the frame on the screen.

@@ -57,7 +57,7 @@ impl App {
         let frame = self
             .frame()
             .filter(|_| self.leading() == Leading::Simulated)?;
-        let life = frame.metrics.life?;
+        let life = self.life()?;
         let settled = self.replay.settled.as_ref();
         let settled = settled.filter(|settled| settled.frames.len() > 1);
         let mut film = self.lives.film;
