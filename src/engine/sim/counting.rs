@@ -173,8 +173,15 @@ impl Counting {
     }
 
     /// Moves the points by `travel` (in a) and samples the line y = 0 below the surface loaded last, of a contact of
-    /// `size` times the scene's.
-    pub(super) fn step(&mut self, grid: &Grid, travel: [f64; 2], stress: &StressStage, size: f64) {
+    /// `size` times the scene's, where waves of both bodies have come together again after `common` (distances of the bodies, in
+    /// a; `None`: never).
+    pub(super) fn step(
+        &mut self,
+        grid: &Grid,
+        travel: [f64; 2],
+        stress: &StressStage,
+        (size, common): (f64, Option<[f64; 2]>),
+    ) {
         let line = |body: BodyId| {
             let slice = stress.slice_in(body);
             Line {
@@ -190,7 +197,8 @@ impl Counting {
             let before = self.trackers[i].crossings();
             self.trackers[i].step(travel[i], &line(body));
             if let Some(by_damage) = &mut self.by_damage {
-                by_damage.step(body, travel[i], &line(body), size);
+                let common = common.map(|distances| distances[i]);
+                by_damage.step(body, travel[i], &line(body), (size, common));
             }
             if self.trackers[i].crossings() == before {
                 continue;

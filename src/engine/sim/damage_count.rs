@@ -109,9 +109,17 @@ impl DamageCount {
         (self.fastest, self.is_known) = (0.0, false);
     }
 
-    /// Moves a body's columns by `travel` (in a) below the `line`, in a contact of `size` times the scene's.
-    pub(super) fn step(&mut self, body: BodyId, travel: f64, line: &Line, size: f64) {
+    /// Moves a body's columns by `travel` (in a) below the `line`, in a contact of `size` times the scene's, where waves of both
+    /// have come together again after the body has moved by `common` (in a; `None`: never).
+    pub(super) fn step(
+        &mut self,
+        body: BodyId,
+        travel: f64,
+        line: &Line,
+        (size, common): (f64, Option<f64>),
+    ) {
         let own = &mut self.bodies[body.index()];
+        own.columns.repeat_after(own.own, common);
         own.columns.step(travel, REACH * size, line);
         own.distance += travel.abs();
     }

@@ -162,6 +162,11 @@ impl Orbit {
         true
     }
 
+    /// T, in a; `None`: nothing that passes has a common one.
+    pub(super) fn period(&self) -> Option<f64> {
+        (self.rhythm == Rhythm::Orbit).then_some(self.period)
+    }
+
     /// What the mean of the life is taken over.
     pub(super) fn life_window(&self, passage: f64) -> Window {
         Window {

@@ -44,7 +44,10 @@ pub(super) fn watch(
             && let Some(counting) = &mut state.counting
         {
             let travel = [0, 1].map(|body: usize| state.watched[body] - before[body]);
-            counting.step(&work.solver.grid, travel, stress, size);
+            let ratios = speed_ratios(state.drive.get(Knob::SlideRoll).now);
+            let period = state.orbit.period();
+            let common = period.map(|period| ratios.map(|ratio| ratio.abs() * period));
+            counting.step(&work.solver.grid, travel, stress, (size, common));
         }
     }
     if looks {
