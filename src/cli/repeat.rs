@@ -97,7 +97,7 @@ fn judge_length(path: &Path, prepared: &Prepared, steps: u64) -> Result<(), Fail
     /// Longest run that a scene may ask for, passages.
     const LONGEST: f64 = 1e4;
     let plan = &prepared.plan;
-    let most = plan.steps as f64 * LONGEST / prepared.scene.time.passages;
+    let most = plan.steps as f64 * LONGEST / prepared.scene.time.most_passages();
     if steps as f64 > most.max(1.0) {
         return Err(Failure::input(miette::miette!(
             "{}: {steps} steps, where the longest run of its scene has {most:.0}",

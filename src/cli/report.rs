@@ -103,7 +103,12 @@ fn run_line(outcome: &Outcome) -> String {
         format!(", {pace:.1} steps per second after the start-up")
     });
     let steps = counted(outcome.steps, "step");
-    format!("{how}; {steps} in {:.1} s{pace}", outcome.wall_s)
+    let enough = if outcome.settled {
+        ", until the life had settled"
+    } else {
+        ""
+    };
+    format!("{how}; {steps} in {:.1} s{pace}{enough}", outcome.wall_s)
 }
 
 /// A run that was stopped, with what it has done of what it was to do.

@@ -48,11 +48,11 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         None => (scenes::prepare(args)?, Vec::new(), 0),
         Some(repeated) => (repeated.prepared, repeated.turns, repeated.last_step),
     };
+    let is_of_scene = turns.is_empty() && !broken_off;
     let usual = || PathBuf::from(format!("{}.rrd", prepared.name));
     let path = args.out.clone().unwrap_or_else(usual);
     let recorded = prepared.scene.record.is_some();
     let plan = prepared.plan;
-    let estimate_s = plan.cost.time_s;
     // All that is read is read before anything is written.
     let state = headless.from_state.as_deref();
     let saved = state.map(|path| Checkpoint::read_for(path, &prepared.scene));
@@ -85,12 +85,12 @@ pub(crate) fn run(headless: &HeadlessArgs) -> Result<u8, Failure> {
         None => Session::repeat(request, turns),
         Some(saved) => Session::resume(request, saved),
     }?;
-    wait(&session, kind, estimate_s, &interrupt, "");
+    wait(&session, kind, plan.cost.time_s, &interrupt, "");
     let mut outcome = session.join()?;
     if broken_off {
         outcome.cut_short();
     }
-    let errors = if is_plain {
+    let errors = if is_plain || is_of_scene && outcome.settled {
         let (scene, threads) = (&prepared.scene, args.threads());
         let errors = estimate_errors(scene, &plan, threads, &mut outcome, &interrupt);
         vary_what_nobody_knows(scene, &plan, threads, &mut outcome, &interrupt);

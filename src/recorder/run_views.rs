@@ -337,7 +337,7 @@ fn expected_steps(scene: Option<&Scene>, first: &Frame) -> f64 {
     let Some(time) = scene.map(|scene| &scene.time) else {
         return 1.0;
     };
-    let steps = time.passages * 4.0 * first.a_m / (first.dx_m * time.step_nodes);
+    let steps = time.most_passages() * 4.0 * first.a_m / (first.dx_m * time.step_nodes);
     if steps.is_finite() {
         steps.max(1.0)
     } else {

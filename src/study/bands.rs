@@ -102,13 +102,12 @@ impl Case {
                 knob.put(&mut scene, value);
             }
         }
-        scene.time.passages = match scene.kind() {
+        let passages = match scene.kind() {
             ContactKind::Point => 1.0,
             ContactKind::Line => 3.0,
         };
-        if way == Way::Longer {
-            scene.time.passages *= LONGER;
-        }
+        let longer = if way == Way::Longer { LONGER } else { 1.0 };
+        scene.time.passages = Some(longer * passages);
         planned(scene)
     }
 
@@ -404,7 +403,10 @@ mod tests {
             let (scene, _) = case.planned(Way::Longer).unwrap();
             let (answer, _) = case.planned(Way::Answer).unwrap();
             assert_eq!(scene.grid.nodes, 2 * answer.grid.nodes - 1);
-            assert_eq!(scene.time.passages, LONGER * answer.time.passages);
+            assert_eq!(
+                scene.time.most_passages(),
+                LONGER * answer.time.most_passages()
+            );
             let home = scene_with(case.preset, &[]).unwrap();
             let load = scene.force_n() / home.force_n();
             assert!((0.5..=1.5).contains(&load), "{}: {load}", case.name());

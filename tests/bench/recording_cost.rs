@@ -93,7 +93,7 @@ fn seconds_of(names: &[&str]) -> f64 {
 
 fn scene() -> Scene {
     let mut scene = Scene::load(presets::QUICK).unwrap();
-    scene.time.passages = 2.0 + (BLOCKS * BLOCK) as f64 / 128.0;
+    scene.time.passages = Some(2.0 + (BLOCKS * BLOCK) as f64 / 128.0);
     scene
 }
 

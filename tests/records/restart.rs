@@ -105,7 +105,7 @@ fn run(scene: &Scene, from: Option<Checkpoint>) -> (Vec<String>, Outcome) {
 /// Two scripted events, one on each side of the cut, which comes after 16 of 32 steps.
 fn scripted(passages: f64) -> Scene {
     let mut scene = scene(&SMALL);
-    scene.time.passages = passages;
+    scene.time.passages = Some(passages);
     let dt_s = Plan::new(&scene).unwrap().dt_s;
     for (at, s) in [(8.0, 1.0), (24.0, 0.2)] {
         let event = format!(
@@ -387,7 +387,7 @@ fn a_run_that_is_done_resumes_to_the_same_summary() {
         "life.spread=models",
     ];
     let mut scene = scene(&sets);
-    scene.time.passages = 1.5;
+    scene.time.passages = Some(1.5);
     let (_, outcome) = run(&scene, None);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("done.state");

@@ -259,7 +259,7 @@ fn made_surfaces_fit_every_point() {
                 }
             }
             let length_m = plan.steps_per_passage as f64 * plan.dx_m * scene.time.step_nodes;
-            let length_m = length_m * scene.time.passages;
+            let length_m = length_m * scene.time.most_passages();
             assert!(
                 length_m > 0.98 * set.made.period_x_m,
                 "{}: {length_m}",

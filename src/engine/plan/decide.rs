@@ -11,7 +11,8 @@ use crate::physics::groups::Groups;
 use crate::physics::hertz::Hertz;
 use crate::physics::strength::is_steel;
 use crate::scene::{
-    ContactKind, EyringFlow, Knob, Order, OrderAsked, Rheology, Scene, Spread, Surface, SurfaceKind,
+    ContactKind, CycleBasis, EyringFlow, Knob, Order, OrderAsked, Rheology, Scene, Spread, Surface,
+    SurfaceKind,
 };
 
 /// What the regression formulas say of a film.
@@ -275,6 +276,24 @@ pub(super) fn stress_plan(
         depths: stress.depths,
         depth_max_m: stress.depth_max_a * hertz.a_m.min(hertz.b_m),
     })
+}
+
+/// Whether what passes are waves alone, in conditions that stay, and the life counts what a settled one has seen.
+pub(super) fn may_settle(scene: &Scene, time_dependence: TimeDependence) -> bool {
+    let is_wave = |surface: &Surface| match surface {
+        Surface::Smooth {} | Surface::Sinusoid { .. } => true,
+        Surface::Random(_) | Surface::HeightMap { .. } => false,
+    };
+    let is_counted = scene.life.as_ref().is_some_and(|life| match life.cycles {
+        CycleBasis::Damage | CycleBasis::Global => true,
+        // Points are counted as they leave: one mean of them is as good as another.
+        CycleBasis::Peaks => false,
+    });
+    time_dependence == TimeDependence::Transient
+        && is_counted
+        && scene.surfaces().into_iter().all(is_wave)
+        && scene.events.is_empty()
+        && scene.age.is_none()
 }
 
 /// What a scene with `[life]` does not compute.

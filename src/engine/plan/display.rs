@@ -183,6 +183,12 @@ impl Plan {
                     self.steps as f64 * self.dt_s,
                     self.steps as f64 / self.steps_per_passage as f64
                 )?;
+                if self.until_settled {
+                    writeln!(
+                        f,
+                        "            at most: once a passage is done, until the life has settled and the waves' period closes (time.passages says how many)"
+                    )?;
+                }
                 if let Some(tolerance) = self.step_tolerance {
                     writeln!(
                         f,

@@ -73,6 +73,11 @@ pub struct Plan {
     pub dt_s: f64,
     /// Time steps after the start-up; of adaptive ones, what as many of the usual length would be.
     pub steps: u64,
+    /// Whether all that passes are waves that nothing changes for good, so that a passage may repeat and its life settle:
+    /// a mesh below the scene's own needs no more.
+    pub may_settle: bool,
+    /// Whether the run ends once it has: the scene does not say how many passages it makes.
+    pub until_settled: bool,
     /// Tolerance of adaptive steps; `None`: all have the usual length.
     pub step_tolerance: Option<f64>,
     /// Time steps of one length of 4 a at U.
@@ -286,7 +291,8 @@ impl Plan {
         warnings.extend(resolution.warnings(&KnobsAt::of(scene, film.as_ref())));
         let time_dependence = decide::time_dependence(scene);
         let steps_per_passage = (4.0 * hertz.a_m / step_m).round().max(1.0) as u64;
-        let distance_m = scene.time.passages * PASSAGE_A * hertz.a_m;
+        let may_settle = decide::may_settle(scene, time_dependence);
+        let distance_m = scene.time.most_passages() * PASSAGE_A * hertz.a_m;
         let doubts = surfaces::doubts(scene, hertz.a_m.min(hertz.b_m));
         warnings.extend(doubts.chain(decide::late_events(scene, distance_m)));
         warnings.extend(decide::thermal_unknown(scene));
@@ -311,10 +317,12 @@ impl Plan {
             time_dependence,
             dt_s: step_m / scene.motion.entrainment_m_s.abs(),
             steps,
+            may_settle,
+            until_settled: may_settle && scene.time.passages.is_none(),
             step_tolerance: scene.time.tolerance,
             steps_per_passage,
             passage_a: PASSAGE_A,
-            length_a: scene.time.passages * PASSAGE_A,
+            length_a: scene.time.most_passages() * PASSAGE_A,
             waves,
             resolution,
             maps: scene.map_reports(),

@@ -10,8 +10,10 @@ use crate::closed_set;
 pub struct Time {
     /// Time step in nodes travelled at the entrainment speed: U dt/dx.
     pub step_nodes: f64,
-    /// Length of the run after the start-up, in lengths of 4 a travelled at U.
-    pub passages: f64,
+    /// Length of the run after the start-up, in lengths of 4 a travelled at U; left out: until the life has settled, where it
+    /// can ([`crate::plan::Plan::until_settled`]), [`Time::MOST_PASSAGES`] at most.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub passages: Option<f64>,
     /// Relative error of the film that time stepping may add over one crossing of the contact; left out:
     /// fixed steps.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -22,9 +24,19 @@ impl Default for Time {
     fn default() -> Self {
         Self {
             step_nodes: 1.0,
-            passages: 2.0,
+            passages: None,
             tolerance: None,
         }
+    }
+}
+
+impl Time {
+    /// Passages of a run that does not say how many.
+    pub const MOST_PASSAGES: f64 = 2.0;
+
+    /// Most passages that a run makes.
+    pub fn most_passages(&self) -> f64 {
+        self.passages.unwrap_or(Self::MOST_PASSAGES)
     }
 }
 

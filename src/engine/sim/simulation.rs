@@ -22,6 +22,7 @@ mod watching;
 
 use std::sync::Arc;
 
+use super::estimates::Rhythm;
 use super::sim_plan::SimPlan;
 use super::state::{Phase, State};
 use super::stepping::Attempted;
@@ -178,8 +179,30 @@ impl Simulation {
         self.state.worn.as_ref().is_some_and(|worn| !worn.is_done())
     }
 
-    /// Whether the passages that the scene asks for are done.
+    /// Whether the life of waves that pass with a common period has settled ([`Plan::may_settle`]).
+    pub fn has_settled(&self) -> bool {
+        if !self.plan.decided.may_settle {
+            return false;
+        }
+        let metrics = &self.state.metrics;
+        let comes_back = (metrics.repeat).is_some_and(|repeat| repeat.rhythm == Rhythm::Orbit);
+        let settled = metrics.life.is_some_and(|life| life.settled);
+        self.state.phase == Phase::Passage && metrics.converged && comes_back && settled
+    }
+
+    /// Whether the run may end before its last step: more would only repeat what has been seen, as the life has settled, the
+    /// fields come back, and means are over a whole passage.
+    pub fn ends_settled(&self) -> bool {
+        let repeats = (self.state.metrics.repeat).is_some_and(|repeat| repeat.repeats);
+        let asked = self.plan.decided.until_settled;
+        asked && repeats && self.has_settled() && self.passages() >= 1.0 - 1e-9
+    }
+
+    /// Whether the passages that the scene asks for are done, or as many as its life needs.
     pub fn is_done(&self) -> bool {
+        if self.ends_settled() {
+            return true;
+        }
         let steady = matches!(
             self.plan.decided.time_dependence,
             TimeDependence::Steady { .. }

@@ -22,7 +22,8 @@ pub struct Summary {
     pub stopped: bool,
     /// Time steps after the start-up.
     pub steps: u64,
-    /// How many the whole run has by its plan; `None`: it has no end of its own (the explorer).
+    /// How many the whole run has by its plan, or had once its life had settled; `None`: it has no end of its own (the
+    /// explorer).
     #[serde(default)]
     pub steps_planned: Option<u64>,
     /// Those that did not converge.

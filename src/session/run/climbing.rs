@@ -1,7 +1,7 @@
 //! The loop on a ladder of meshes: one simulation after the other, each going on from where the one below was launched.
 //!
 //! ```text
-//! Passages   each mesh makes the passages of the scene                      up when they are done
+//! Passages   each mesh makes the passages of the scene                      up when they are done, or a life of waves has settled
 //! live       each mesh goes on until its life has settled                   up; a knob that is turned: down to the first
 //! ```
 //! The last mesh does the same in both, so a live run whose knobs nobody turns gives the frames of a run by itself. After a

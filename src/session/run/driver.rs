@@ -193,6 +193,7 @@ impl Driver {
         let mut summary = None;
         let mut steps = 0;
         let mut steps_per_s = None;
+        let mut settled = false;
         let mut checkpoint = None;
         let end = if self.must_end_for_outputs() {
             End::OutputFailed
@@ -207,6 +208,10 @@ impl Driver {
             let is_live = self.ending == Ending::OnStop;
             if let Some(sim) = sim.filter(|_| is_live || self.is_on_top()) {
                 steps = sim.passage_steps();
+                settled = matches!(end, End::Done) && sim.ends_settled();
+                if settled {
+                    self.steps_planned = Some(steps);
+                }
                 steps_per_s = self
                     .passage_began
                     .filter(|_| steps > 1)
@@ -240,6 +245,7 @@ impl Driver {
             summary,
             steps,
             steps_planned: self.steps_planned,
+            settled,
             unconverged: self.unconverged,
             n_unconverged: self.n_unconverged,
             applied: self.applied,
@@ -342,7 +348,7 @@ impl Driver {
     /// Whether all steps are made; on a coarser mesh those that it is there for.
     fn has_ended(&self, sim: &Simulation) -> bool {
         match self.ending {
-            Ending::Passages => sim.is_done(),
+            Ending::Passages => sim.is_done() || !self.is_on_top() && sim.has_settled(),
             Ending::Steps(_) | Ending::OnStop if !self.is_on_top() => {
                 self.has_settled && self.script.is_empty()
             }

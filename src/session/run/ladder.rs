@@ -1,8 +1,8 @@
 //! The meshes that a run climbs: from the coarsest that carries the scene's waves up to its own.
 //!
 //! ```text
-//! 65² ── passages ──> 129² ── passages ──> 257²        start-up on the first one only; each goes on from where the passage of
-//!      life, band          life, band      life, band  the one before began, so that all passages are of the same phases
+//! 65² ── settled ──> 129² ── settled ──> 257²        start-up on the first one only; each goes on from where the passage of the
+//!     life, band         life, band    life, band   one before began, so that all passages are of the same phases
 //! ```
 //! The last mesh is the scene's own, and what outputs get is its passage. A mesh that stalls is left out: the next one starts
 //! from Hertz, as a run on it alone does.

@@ -45,8 +45,10 @@ pub struct Outcome {
     pub stopped: bool,
     /// Time steps after the start-up.
     pub steps: u64,
-    /// How many the whole run has by its plan; `None`: it has no end of its own.
+    /// How many the whole run has by its plan, or had once its life had settled; `None`: it has no end of its own.
     pub steps_planned: Option<u64>,
+    /// Whether more steps would only repeat what has been seen, of a scene that does not say how many passages it makes.
+    pub settled: bool,
     /// The first steps that did not converge, at most [`Outcome::UNCONVERGED_KEPT`].
     pub unconverged: Vec<Unconverged>,
     /// How many did not in all.

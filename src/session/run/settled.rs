@@ -1,12 +1,13 @@
 //! A passage that has become periodic: one period of frames for replay, and the state it can go on from.
 //!
 //! ```text
-//! Repeat::repeats ──> gather frames over T ──> Settled { frames, T, state }        a knob is turned: gone
+//! frames of the last T ──> Repeat::repeats ──> Settled { frames, T, state }        a knob is turned: gone
 //! ```
 //! On the coarser meshes of a ladder a settled life is enough ([`Closing`]). Where no common period exists (only the means have settled) or nothing moves there is one frame only. So it is, until
 //! the period closes, where the life has long been settled: on a coarse mesh with few steps a crest the fields may never
 //! compare closely enough.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use asperity_engine::scene::Scene;
@@ -43,14 +44,16 @@ pub(super) enum Closing {
     Life,
 }
 
-/// Collects a period.
+/// Keeps the last period.
 #[derive(Debug, Default)]
 pub(super) struct Gather {
-    frames: Vec<Arc<Frame>>,
-    /// Frames seen since the period began.
+    /// The oldest first.
+    frames: VecDeque<Arc<Frame>>,
+    /// Frames seen, and the time of the last one.
     seen: usize,
-    began_s: f64,
-    every: usize,
+    last_s: f64,
+    /// Whether a period has been seen since the first.
+    is_whole: bool,
     is_done: bool,
     /// Passages at which the life had settled without a period.
     waits_since: Option<f64>,
@@ -66,43 +69,56 @@ impl Gather {
         closing: Closing,
         save: impl FnOnce() -> Option<State>,
     ) -> Option<Settled> {
-        let metrics = &frame.metrics;
-        let repeat = metrics.repeat.filter(|repeat| match closing {
-            Closing::Fields => repeat.repeats,
-            Closing::Life => repeat.repeats || metrics.life.is_some(),
-        });
-        let counted = metrics.life.is_none_or(|life| life.settled);
-        let holds = frame.stage == Stage::Passage && metrics.converged && counted;
         if self.is_done {
             return None;
         }
-        let Some(repeat) = repeat.filter(|_| holds) else {
-            return self.wait(frame, holds, save);
-        };
-        if repeat.rhythm != Rhythm::Orbit {
-            return Some(self.whole(vec![copy(frame)], 0.0, save()));
+        let metrics = &frame.metrics;
+        let moves = frame.stage == Stage::Passage && metrics.converged;
+        let known = metrics.repeat.filter(|_| moves);
+        let orbit = known.filter(|repeat| repeat.rhythm == Rhythm::Orbit);
+        if orbit.is_none() {
+            self.begin_anew();
         }
-        if self.seen == 0 {
-            self.began_s = frame.time_s;
+        let is_whole = orbit.is_some_and(|orbit| self.keep(frame, orbit.period_s));
+        let repeat = known.filter(|repeat| match closing {
+            Closing::Fields => repeat.repeats,
+            Closing::Life => repeat.repeats || metrics.life.is_some(),
+        });
+        let holds = moves && metrics.life.is_none_or(|life| life.settled);
+        match repeat.filter(|_| holds) {
+            Some(repeat) if repeat.rhythm == Rhythm::Orbit => is_whole.then(|| {
+                let frames = std::mem::take(&mut self.frames);
+                self.whole(frames.into(), repeat.period_s, save())
+            }),
+            Some(_) => Some(self.whole(vec![copy(frame)], 0.0, save())),
+            None => self.wait(frame, holds, save),
         }
-        if self.seen == 1 {
-            let step_s = (frame.time_s - self.began_s).max(f64::MIN_POSITIVE);
-            let bytes = repeat.period_s / step_s * bytes(frame) as f64;
-            self.every = (bytes / MOST_BYTES as f64).ceil().max(1.0) as usize;
-        }
-        // The first frame of the next period is the first of this one again.
-        if self.seen > 1 && frame.time_s >= self.began_s + repeat.period_s * (1.0 - 1e-9) {
-            let frames = std::mem::take(&mut self.frames);
-            return Some(self.whole(frames, repeat.period_s, save()));
-        }
-        if self.seen.is_multiple_of(self.every.max(1)) {
-            self.frames.push(copy(frame));
-        }
-        self.seen += 1;
-        None
     }
 
-    /// No period (any more): begins anew, and gives one frame where that has gone on for long.
+    fn begin_anew(&mut self) {
+        self.frames.clear();
+        (self.seen, self.is_whole) = (0, false);
+    }
+
+    /// Keeps a frame and those of the period before it; whether that is whole.
+    fn keep(&mut self, frame: &Arc<Frame>, period_s: f64) -> bool {
+        let step_s = (frame.time_s - self.last_s).max(f64::MIN_POSITIVE);
+        let bytes = period_s / step_s * bytes(frame) as f64;
+        let every = (bytes / MOST_BYTES as f64).ceil().max(1.0) as usize;
+        if self.seen.is_multiple_of(every) {
+            self.frames.push_back(copy(frame));
+        }
+        (self.seen, self.last_s) = (self.seen + 1, frame.time_s);
+        // The one a period ago is this one again.
+        let is_past = |kept: &Arc<Frame>| kept.time_s <= frame.time_s - period_s * (1.0 - 1e-9);
+        while self.frames.front().is_some_and(is_past) {
+            self.frames.pop_front();
+            self.is_whole = true;
+        }
+        self.is_whole
+    }
+
+    /// No period: gives one frame where that has gone on for long.
     fn wait(
         &mut self,
         frame: &Arc<Frame>,
@@ -110,11 +126,8 @@ impl Gather {
         save: impl FnOnce() -> Option<State>,
     ) -> Option<Settled> {
         let since = self.waits_since.unwrap_or(frame.passages);
-        *self = Self {
-            waits_since: holds.then_some(since),
-            gave_up: holds && self.gave_up,
-            ..Self::default()
-        };
+        self.waits_since = holds.then_some(since);
+        self.gave_up &= holds;
         if !holds || self.gave_up || frame.passages - since < PATIENCE {
             return None;
         }
@@ -179,20 +192,25 @@ mod tests {
         })
     }
 
-    #[test]
-    fn one_period_is_gathered_once_after_the_passage_repeats() {
+    /// Steps of the periods that 40 frames leave, which repeat after the `first`; one of them did not converge.
+    fn periods(first: u64, failed: u64) -> Vec<Vec<u64>> {
         let mut gather = Gather::default();
-        let mut found = Vec::new();
-        for step in 1..40 {
-            let frame = frame(step, step > 4, Rhythm::Orbit);
-            found.extend(gather.take(&frame, Closing::Fields, || None));
-        }
-        let [settled] = &found[..] else {
-            panic!("{} periods", found.len());
+        let take = |step| {
+            let mut frame = Frame::clone(&frame(step, step > first, Rhythm::Orbit));
+            frame.metrics.converged = step != failed;
+            let settled = gather.take(&Arc::new(frame), Closing::Fields, || None)?;
+            assert_eq!(settled.period_s, 7.0);
+            Some(settled.frames.iter().map(|frame| frame.step).collect())
         };
-        let steps: Vec<u64> = settled.frames.iter().map(|frame| frame.step).collect();
-        assert_eq!(steps, [5, 6, 7, 8, 9, 10, 11]);
-        assert_eq!(settled.period_s, 7.0);
+        (1..40).filter_map(take).collect()
+    }
+
+    #[test]
+    fn the_period_before_the_passage_repeats_is_given_once() {
+        assert_eq!(periods(20, 0), [[15, 16, 17, 18, 19, 20, 21]]);
+        // As soon as there is a whole one, and one after what did not converge.
+        assert_eq!(periods(4, 0), [[2, 3, 4, 5, 6, 7, 8]]);
+        assert_eq!(periods(20, 18), [[20, 21, 22, 23, 24, 25, 26]]);
     }
 
     #[test]
@@ -209,19 +227,12 @@ mod tests {
         let firsts = found
             .iter()
             .map(|settled| (settled.frames[0].step, settled.frames.len()));
-        assert_eq!(firsts.collect::<Vec<_>>(), [(110, 1), (201, 7)]);
+        assert_eq!(firsts.collect::<Vec<_>>(), [(110, 1), (195, 7)]);
     }
 
     #[test]
-    fn a_break_begins_anew_and_means_leave_one_frame() {
+    fn means_leave_one_frame() {
         let mut gather = Gather::default();
-        for step in 1..40 {
-            let frame = frame(step, step % 5 != 0, Rhythm::Orbit);
-            assert!(
-                gather.take(&frame, Closing::Fields, || None).is_none(),
-                "{step}"
-            );
-        }
         let settled = gather.take(
             &frame(41, true, Rhythm::Statistics),
             Closing::Fields,

@@ -88,11 +88,11 @@ impl Case {
             };
             counts_points || life.maps() != [false; 2]
         });
-        let usual = || (!points_cross).then(|| scene.time.passages.min(1.0));
+        let usual = || (!points_cross).then(|| scene.time.most_passages().min(1.0));
         let Some(passages) = chain.passages.or_else(usual) else {
             return Self::as_asked(index, scene);
         };
-        scene.time.passages = passages;
+        scene.time.passages = Some(passages);
         let mut case = Self::as_asked(index, scene)?;
         fit_window(&mut case.plan);
         Ok(case)

@@ -81,9 +81,10 @@ impl Sweep {
                 ),
             });
         }
-        ride.time.passages = way_m / (4.0 * half_m) + 1.0;
+        let passages = way_m / (4.0 * half_m) + 1.0;
+        ride.time.passages = Some(passages);
         // A domain is about 4 a long.
-        let steps = ride.time.passages * ride.grid.nodes as f64 / ride.time.step_nodes;
+        let steps = passages * ride.grid.nodes as f64 / ride.time.step_nodes;
         ride.record = Some(Record {
             every_steps: (steps / PICTURES).ceil().max(1.0) as usize,
             ..Record::default()

@@ -195,7 +195,7 @@ impl CaseSet {
     fn with_events(&self, texts: &[String], jumps: &[(Knob, f64)]) -> Result<Scene, String> {
         let mut scene = scene_with(&self.scene, texts)?;
         if !jumps.is_empty() {
-            let length_m = 4.0 * scene.hertz().a_m * scene.time.passages;
+            let length_m = 4.0 * scene.hertz().a_m * scene.time.most_passages();
             scene.events.push(Event {
                 at_s: JUMP_AT * length_m / scene.motion.entrainment_m_s.abs(),
                 set: jumps

@@ -220,7 +220,7 @@ fn steps_wanted(ready: &Ready) -> u64 {
     if steady && ready.jumps.is_empty() {
         1
     } else {
-        let passages = ready.scene.time.passages;
+        let passages = ready.scene.time.most_passages();
         (passages * ready.plan.steps_per_passage as f64).ceil() as u64
     }
 }

@@ -232,7 +232,10 @@ impl Draft {
                 "p_h {} GPa, {} MB, {} s a passage of 4 a on one core",
                 sig(plan.hertz.p_max_pa * 1e-9, 3),
                 sig(plan.cost.memory_bytes as f64 * 1e-6, 2),
-                sig(plan.cost.time_s / self.scene.time.passages.max(1e-9), 2),
+                sig(
+                    plan.cost.time_s / self.scene.time.most_passages().max(1e-9),
+                    2
+                ),
             )
         });
     }
