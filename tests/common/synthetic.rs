@@ -63,7 +63,7 @@ pub(crate) fn scene(nodes: usize, passages: f64) -> Scene {
         },
         time: Time {
             step_nodes: 1.0,
-            passages,
+            passages: Some(passages),
             tolerance: None,
         },
         numerics: Numerics::default(),
