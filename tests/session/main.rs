@@ -8,3 +8,4 @@ mod phases;
 mod rungs;
 mod session;
 mod stalls;
+mod until_settled;
