@@ -387,14 +387,16 @@ fn the_error_of_an_aged_life_is_of_aged_meshes() {
     assert!(error >= apart, "{error} {apart}");
 }
 
-/// Most that body 1, whose ridges are alike across, lies below its own rim, m.
+/// Most that a row of body 1, whose ridges are alike across, lies below its own rim, m: the mean along it, for where nodes meet
+/// the deepest place hangs on the phase.
 fn worn_1_m(frame: &Frame) -> f64 {
     let rows = || frame.roughness_1_m.chunks_exact(frame.nx);
     let rim = rows().next().unwrap();
-    let depths = rows().flat_map(|row| rim.iter().zip(row));
-    depths
-        .map(|(rim, here)| f64::from(rim - here))
-        .fold(0.0, f64::max)
+    let depth = |row: &[f32]| {
+        let places = rim.iter().zip(row);
+        places.map(|(rim, here)| f64::from(rim - here)).sum::<f64>() / frame.nx as f64
+    };
+    rows().map(depth).fold(0.0, f64::max)
 }
 
 /// Who turns a knob after surfaces have aged looks at the same worn surfaces on every mesh: the finer one does not begin with
@@ -427,8 +429,9 @@ fn a_knob_turned_after_ageing_leaves_surfaces_worn_on_every_mesh() {
     };
     assert_eq!([coarse.0, fine.0], [65, 129]);
     assert_eq!([coarse.1, fine.1], [scene.age.unwrap().cycles; 2]);
+    // A hundredth of the amplitude: some of it is gone.
     assert!(
-        coarse.2 > 1e-8 && (fine.2 / coarse.2 - 1.0).abs() < 0.1,
+        coarse.2 > 5e-9 && (fine.2 / coarse.2 - 1.0).abs() < 0.1,
         "{worn:?}"
     );
 }
