@@ -261,7 +261,7 @@ pub(crate) struct SceneArgs {
     /// Set a key of the scene, such as motion.slide_roll=0.5; KEY=none removes a key or table. Repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) settings: Vec<String>,
-    /// Length of the run after the start-up, in passages of 4 a at speed U (sets time.passages)
+    /// Length of the run after the start-up, in passages of 4 a at speed U (sets time.passages); left out by scene and here: until the life has settled, 2 at most
     #[arg(long, value_name = "N")]
     pub(crate) passages: Option<f64>,
     /// Loading cycles that surfaces with a table [wear] have behind them at the end (sets age.cycles)
