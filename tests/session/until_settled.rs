@@ -88,7 +88,11 @@ fn what_passes_once_or_changes_is_run_to_its_end() {
     let usual = scene("demonstration", &[], None);
     assert!(planned(&usual));
     assert!(!planned(&scene("demonstration", &[], Some(2.0))));
-    for set in ["life=none", "life.cycles=peaks"] {
+    for set in [
+        "life=none",
+        "life.cycles=peaks",
+        "wear.coefficient_1_per_pa=1e-18",
+    ] {
         assert!(!planned(&scene("demonstration", &[set], None)), "{set}");
     }
     assert!(!planned(&scene("random_rollers", &[], None)));

@@ -293,6 +293,8 @@ pub(super) fn may_settle(scene: &Scene, time_dependence: TimeDependence) -> bool
         && is_counted
         && scene.surfaces().into_iter().all(is_wave)
         && scene.events.is_empty()
+        // What a loading cycle wears off is a mean over all places that have met.
+        && scene.wear.is_none()
         && scene.age.is_none()
 }
 
