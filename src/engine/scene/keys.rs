@@ -211,7 +211,7 @@ pub const SECTIONS: &[Section] = &[
         doc: "Time step and length of the run.",
         keys: &[
             key("step_nodes", "", Number(0.05, 4.0), Defaulted, "time step in nodes travelled at U; 1 has no numerical diffusion; fixed steps are fitted to the period of both waves, by up to 1 %, where these have 12 nodes each"),
-            key("passages", "", Number(0.01, 1e4), Optional("until the life of waves has settled and they repeat, from 1 to 2; else 2"), "length of the run in lengths of 4 a at U, after the start-up"),
+            key("passages", "", Number(0.01, 1e4), Optional("from 1 to 2, until the life of waves has settled, they repeat and damage maps are whole; else 2"), "length of the run in lengths of 4 a at U, after the start-up"),
             key("tolerance", "", Number(1e-5, 0.1), Optional("fixed steps of step_nodes"), "adaptive steps: error of the film that they may add over one crossing"),
         ],
     },

@@ -303,6 +303,13 @@ impl Counting {
         (unit > 0.0).then_some((map, unit))
     }
 
+    /// Whether every column of the damage maps has been crossed.
+    pub(super) fn has_whole_maps(&self) -> bool {
+        let maps = self.trackers.iter().filter_map(MaterialTracker::map);
+        maps.into_iter()
+            .all(|map| map.filled() == map.spec().columns)
+    }
+
     /// Damage of a loading cycle of a body's own by place and depth, over that of the worst point of the smooth contact of
     /// `size` times the scene's, into `out`; false where it is not known.
     pub(super) fn damage_by_place(&self, body: BodyId, size: f64, out: &mut [f64]) -> bool {

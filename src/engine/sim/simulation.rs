@@ -22,6 +22,7 @@ mod watching;
 
 use std::sync::Arc;
 
+use super::counting::Counting;
 use super::estimates::Rhythm;
 use super::sim_plan::SimPlan;
 use super::state::{Phase, State};
@@ -191,11 +192,12 @@ impl Simulation {
     }
 
     /// Whether the run may end before its last step: more would only repeat what has been seen, as the life has settled, the
-    /// fields come back, and means are over a whole passage.
+    /// fields come back, means are over a whole passage, and every place of the damage maps has crossed.
     pub fn ends_settled(&self) -> bool {
         let repeats = (self.state.metrics.repeat).is_some_and(|repeat| repeat.repeats);
+        let drawn = (self.state.counting.as_ref()).is_none_or(Counting::has_whole_maps);
         let asked = self.plan.decided.until_settled;
-        asked && repeats && self.has_settled() && self.passages() >= 1.0 - 1e-9
+        asked && repeats && drawn && self.has_settled() && self.passages() >= 1.0 - 1e-9
     }
 
     /// Whether the passages that the scene asks for are done, or as many as its life needs.
