@@ -286,7 +286,7 @@ pub(super) fn may_settle(scene: &Scene, time_dependence: TimeDependence) -> bool
     };
     let is_counted = scene.life.as_ref().is_some_and(|life| match life.cycles {
         CycleBasis::Damage | CycleBasis::Global => true,
-        // Points are counted as they leave: one mean of them is as good as another.
+        // A mean over the few points that have left: its settling says nothing of them.
         CycleBasis::Peaks => false,
     });
     time_dependence == TimeDependence::Transient

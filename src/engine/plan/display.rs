@@ -186,7 +186,7 @@ impl Plan {
                 if self.until_settled {
                     writeln!(
                         f,
-                        "            at most: once a passage is done, until the life has settled and the waves' period closes (time.passages says how many)"
+                        "            at most: after one passage until life and waves' period have settled and damage maps are whole (time.passages says how many)"
                     )?;
                 }
                 if let Some(tolerance) = self.step_tolerance {
