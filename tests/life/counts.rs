@@ -90,7 +90,7 @@ impl Counting {
         let dt_s = frame.time_s - self.before_s;
         self.before_s = frame.time_s;
         for (i, tracker) in self.trackers.iter_mut().enumerate() {
-            tracker.step(speeds_m_s[i / GATES.len()] * dt_s / frame.a_m, &line);
+            tracker.step(speeds_m_s[i / GATES.len()] * dt_s / frame.a_m, 1.2, &line);
         }
     }
 

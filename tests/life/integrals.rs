@@ -189,7 +189,7 @@ fn counted_contacts_match_the_formula() {
                 tau_xz: None,
                 effective: None,
             };
-            tracker.step(u_1 * passage.step(), &line);
+            tracker.step(u_1 * passage.step(), 1.2, &line);
         }
         let (tally, expected) = (
             tracker.pressure_cycles().expect("crossed"),
@@ -249,7 +249,7 @@ fn shear_counts_n_near_the_surface_and_one_below() {
             tau_xz: Some(&slice.sxz),
             effective: Some(&slice.effective),
         };
-        tracker.step(passage.u_1 * passage.step(), &line);
+        tracker.step(passage.u_1 * passage.step(), 1.2, &line);
     }
     println!("n by formula {n:.1}");
     for (k, z) in spec.depths.iter().enumerate() {
@@ -433,7 +433,7 @@ fn peaks_and_ranges_count_less_than_one_n_for_the_volume() {
                 tau_xz: Some(&slice.sxz),
                 effective: Some(&slice.effective),
             };
-            tracker.step(passage.u_1 * passage.step(), &line);
+            tracker.step(passage.u_1 * passage.step(), 1.2, &line);
         }
         let sums = engine.volume_under(&[StressLaw::power(m)], &[BodyId::One]);
         for loading in Loading::ALL {

@@ -20,6 +20,8 @@ use crate::solve::stress::StressLaw;
 const SHOWN_DEPTH: f64 = 0.1;
 /// Ratio of the lives of both bodies below which neither is followed rather than the other.
 const ALIKE: f64 = 1.05;
+/// Half-width behind which a crossing has ended, over Hertz's: what is off the contact adds no cycle.
+const BEHIND: f64 = 1.2;
 /// Columns of a damage map.
 const MAP_COLUMNS: usize = 24;
 
@@ -195,7 +197,7 @@ impl Counting {
         for body in BodyId::BOTH {
             let i = body.index();
             let before = self.trackers[i].crossings();
-            self.trackers[i].step(travel[i], &line(body));
+            self.trackers[i].step(travel[i], BEHIND * size, &line(body));
             if let Some(by_damage) = &mut self.by_damage {
                 let common = common.map(|distances| distances[i]);
                 by_damage.step(body, travel[i], &line(body), (size, common));
@@ -281,7 +283,7 @@ impl Counting {
     /// Part of a `period` (in a, at U) over which crossings by damage have finished; 1 where they are not followed.
     pub(super) fn covers(&self, period: f64) -> f64 {
         let by_damage = self.by_damage.as_ref();
-        by_damage.map_or(1.0, |by_damage| by_damage.covers(period))
+        by_damage.map_or(1.0, |by_damage| by_damage.covers(period, &self.trackers))
     }
 
     /// ln of what the swept integral of a law becomes as the mean over material points, by depth.

@@ -29,6 +29,8 @@ const LEAST_DISTANCE: f64 = 0.25;
 
 /// Half-width within which a point meets its maximum stress, over Hertz's.
 const REACH: f64 = 0.8;
+/// Longest waves whose points' largest cycles make a mean: of one, 14 points of the default scene would be.
+const WAVES: f64 = 3.0;
 /// Bodies slower than this, over the mean speed, are not waited for.
 const SLOW: f64 = 0.5;
 
@@ -130,7 +132,8 @@ impl DamageCount {
         self.is_known = true;
         for (body, tracker) in self.bodies.iter_mut().zip(trackers) {
             let distances = (body.distance, self.fastest);
-            self.is_known &= tracker.damage_cycles(distances, &mut body.cycles);
+            self.is_known &=
+                tracker.damage_cycles(distances, WAVES * body.needed, &mut body.cycles);
             let depths = body.cycles.len().max(1);
             for (law, out) in body.ln_ratios.chunks_exact_mut(depths).enumerate() {
                 body.columns.ln_ratios(law, body.own, body.needed, out);
@@ -140,19 +143,22 @@ impl DamageCount {
 
     /// Part of a `period` (in a, at U) of both bodies' surfaces that has crossed the contact; of slow ones a quarter of it
     /// does, and of those that creep none is waited for.
-    pub(super) fn covers(&self, period: f64) -> f64 {
+    pub(super) fn covers(&self, period: f64, trackers: &[MaterialTracker; 2]) -> f64 {
         let mean = 0.5 * (self.bodies[0].distance + self.bodies[1].distance);
-        let part = |body: &BodyCount| {
+        let part = |(body, tracker): (&BodyCount, &MaterialTracker)| {
             let speed = body.distance / mean.max(f64::MIN_POSITIVE);
             let needed = period * speed * ((speed / SLOW).min(1.0)).powi(2);
             let creeps = speed < 0.5 * SLOW;
             if creeps {
                 f64::INFINITY
             } else {
-                body.columns.finished() / needed.max(f64::MIN_POSITIVE)
+                let columns = body.columns.finished() / needed.max(f64::MIN_POSITIVE);
+                let most = needed.min(WAVES * body.needed);
+                columns.min(tracker.finished() / most.max(f64::MIN_POSITIVE))
             }
         };
-        self.bodies.iter().map(part).fold(f64::INFINITY, f64::min)
+        let bodies = self.bodies.iter().zip(trackers).map(part);
+        bodies.fold(f64::INFINITY, f64::min)
     }
 
     /// n by depth of a body; `None` before anything moved.

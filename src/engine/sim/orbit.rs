@@ -31,6 +31,8 @@ const CLOSED: f64 = 5e-3;
 const LEVEL: f64 = 1e-2;
 /// Steps that a comparison spans at least.
 const FEWEST_STEPS: f64 = 6.0;
+/// Periods shorter than this, in a, are looked at several together.
+const LEAST_ROUND: f64 = 1.0;
 /// Relative mismatch of a common period.
 const MATCH: f64 = 1e-9;
 /// Part of a step by which it may be stretched or shortened for a period to be a whole number of steps: with more the shift
@@ -169,8 +171,14 @@ impl Orbit {
 
     /// What the mean of the life is taken over.
     pub(super) fn life_window(&self, passage: f64) -> Window {
+        let period = self.window(passage);
+        let round = match self.rhythm {
+            Rhythm::Orbit => (self.period * (LEAST_ROUND / self.period).ceil()).min(period),
+            Rhythm::Steady | Rhythm::Statistics => period,
+        };
         Window {
-            period: self.window(passage),
+            period,
+            round,
             is_open: self.rhythm == Rhythm::Statistics,
         }
     }

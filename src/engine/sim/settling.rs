@@ -9,10 +9,11 @@
 //!           not settled                           the band is wider by what eight batches of the samples say of their mean, or more
 //!           no common period, 3 P                 settled; the band is as much wider as the mean wandered in 2 P
 //!                                                 (the mean of all that was seen, which converges as 1/distance)
-//!           cycles by their damage            when the surfaces of a period have crossed the contact; the band is wider by
+//!           cycles by their damage            when the surfaces of P have crossed the contact; the band is wider by
 //!                                             what their mean moved from half of that on
 //! B = c max(ε, 2 tol)                             ε relative error of stress by the mesh, tol a step's of pressure
 //! ```
+//! P are as few whole periods of what passes as make a length a; the mean itself is over as many as fit in a passage.
 //! L ∝ (σ)^{−c}: an error ε of stress is c ε of ln L. B is never below what two means of steps that are solved to
 //! `numerics.tolerance` may differ by. A mean over a whole number of periods meets the same phases at both of its
 //! ends, so it moves by what the contact has not forgotten and by nothing else. Bodies whose waves have no common

@@ -129,6 +129,8 @@ pub(super) enum Crossing {
     Whole,
     /// From inside or behind the contact: not counted.
     Part,
+    /// Counted: it is behind the contact.
+    Done,
 }
 
 /// Mean of several crossings; `None` for none.

@@ -158,6 +158,8 @@ impl Saved for Phases {
 pub struct Window {
     /// Distance after which a mean says something; a closed window is as long.
     pub period: f64,
+    /// Distance over which is looked at whether the mean still moves: a whole number of periods, as few as say something.
+    pub round: f64,
     /// Whether older samples stay in the mean: those of what never repeats.
     pub is_open: bool,
 }
@@ -167,6 +169,7 @@ impl Window {
     pub fn closed(period: f64) -> Self {
         Self {
             period,
+            round: period,
             is_open: false,
         }
     }
@@ -175,6 +178,7 @@ impl Window {
     pub fn open(period: f64) -> Self {
         Self {
             period,
+            round: period,
             is_open: true,
         }
     }
@@ -202,7 +206,7 @@ saved! {
         parts: phases, mean, marks;
         free: window, total, samples, distance;
     }
-    holds |_, saved| saved.window.period > 0.0
+    holds |_, saved| saved.window.period > 0.0 && saved.window.round > 0.0
 }
 
 impl LifeMeter {
@@ -258,7 +262,7 @@ impl LifeMeter {
         self.take_mean();
         if self.covers() && self.marks.is_due(self.distance) {
             let now = BodyId::BOTH.map(|body| self.mean.ln(Loading::Full(body)));
-            self.marks.take(self.distance, self.window.period, now);
+            self.marks.take(self.distance, self.window.round, now);
         }
     }
 
@@ -298,9 +302,9 @@ impl LifeMeter {
         BodyId::BOTH.map(of).into_iter().fold(0.0, f64::max)
     }
 
-    /// Distance since the last restart, and the period of the mean.
+    /// Distance since the last restart, and over which the mean is looked at.
     pub fn distance(&self) -> (f64, f64) {
-        (self.distance, self.window.period)
+        (self.distance, self.window.round)
     }
 
     fn merge_pairs(&mut self) {

@@ -204,17 +204,14 @@ impl MaterialTracker {
         self.oldest = 0;
     }
 
-    /// Moves every point by `travel = U_i Δt` (in a, signed) and samples the line there.
-    pub fn step(&mut self, travel: f64, line: &Line) {
+    /// Moves every point by `travel = U_i Δt` (in a, signed) and samples the line there; a crossing ends `behind` the
+    /// contact's middle (in a), or where the track ends.
+    pub fn step(&mut self, travel: f64, behind: f64, line: &Line) {
         self.distance += travel;
         for i in 0..self.points.len() {
-            if self.advance(i, travel) {
-                self.crossings += u64::from(self.points[i].crossing == Crossing::Whole);
-                self.points[i].crossing = Crossing::Whole;
-                if i == self.shown {
-                    self.trace.clear();
-                    self.oldest = 0;
-                }
+            if self.advance(i, travel, behind) && i == self.shown {
+                self.trace.clear();
+                self.oldest = 0;
             }
             self.sample(i, travel, line);
         }
@@ -228,9 +225,8 @@ impl MaterialTracker {
     }
 
     /// Moves a point; true when it left the track and entered it anew.
-    fn advance(&mut self, i: usize, travel: f64) -> bool {
+    fn advance(&mut self, i: usize, travel: f64, behind: f64) -> bool {
         let (first, last) = (self.spec.x_first, self.spec.x_last);
-        let exponent = self.spec.damage_exponent;
         let point = &mut self.points[i];
         point.x += travel;
         let left = if travel > 0.0 {
@@ -238,31 +234,60 @@ impl MaterialTracker {
         } else {
             travel < 0.0 && point.x <= first
         };
+        let is_behind = travel != 0.0 && point.x * travel.signum() >= behind;
+        match point.crossing {
+            Crossing::Whole if is_behind || left => self.finish(i),
+            Crossing::Part if left => self.end(i),
+            Crossing::New | Crossing::Whole | Crossing::Part | Crossing::Done => {}
+        }
         if left {
-            point.x = first + (point.x - first).rem_euclid(last - first);
-            let crossing = point.crossing;
-            for history in point.histories() {
-                history.end(exponent, crossing);
-            }
-            for (ended, history) in self.ended.iter_mut().zip(&point.shear) {
-                *ended += history.cycles.small_damage(exponent);
-            }
-            if crossing == Crossing::Whole {
-                for (greatest, history) in self.greatest.iter_mut().zip(&point.shear) {
-                    *greatest += history.cycles.range.powf(exponent);
-                }
-            }
-            for history in point.histories() {
-                history.start(exponent);
-            }
-            point.peaks.start();
-            if let (Some(map), Crossing::Whole) = (&mut self.map, crossing) {
-                let damage = point.effective.iter().filter_map(|h| Some(h.last?.damage));
-                map.add(point.place, damage);
-            }
-            point.place = point.x - self.distance;
+            self.enter(i);
         }
         left
+    }
+
+    /// A point's crossing has ended, and its cycles count.
+    fn end(&mut self, i: usize) {
+        let exponent = self.spec.damage_exponent;
+        let point = &mut self.points[i];
+        let crossing = point.crossing;
+        for history in point.histories() {
+            history.end(exponent, crossing);
+        }
+        for (ended, history) in self.ended.iter_mut().zip(&point.shear) {
+            *ended += history.cycles.small_damage(exponent);
+        }
+        for history in point.histories() {
+            history.start(exponent);
+        }
+    }
+
+    /// The same of one that has been followed from before the contact.
+    fn finish(&mut self, i: usize) {
+        self.end(i);
+        let exponent = self.spec.damage_exponent;
+        let point = &mut self.points[i];
+        point.crossing = Crossing::Done;
+        self.crossings += 1;
+        for (greatest, history) in self.greatest.iter_mut().zip(&point.shear) {
+            *greatest += history
+                .last
+                .map_or(0.0, |cycles| cycles.range.powf(exponent));
+        }
+        if let Some(map) = &mut self.map {
+            let damage = point.effective.iter().filter_map(|h| Some(h.last?.damage));
+            map.add(point.place, damage);
+        }
+    }
+
+    /// A point that has left the track enters it at the other end.
+    fn enter(&mut self, i: usize) {
+        let (first, last) = (self.spec.x_first, self.spec.x_last);
+        let point = &mut self.points[i];
+        point.x = first + (point.x - first).rem_euclid(last - first);
+        point.place = point.x - self.distance;
+        point.peaks.start();
+        point.crossing = Crossing::Whole;
     }
 
     fn sample(&mut self, i: usize, travel: f64, line: &Line) {
@@ -277,6 +302,9 @@ impl MaterialTracker {
             } else {
                 Crossing::Part
             };
+        }
+        if point.crossing == Crossing::Done {
+            return;
         }
         point.pressure.push(pressure, exponent);
         point.peaks.push(point.x, pressure);
@@ -332,6 +360,12 @@ impl MaterialTracker {
         self.crossings
     }
 
+    /// Distance of the body, a, of which points have finished their crossing.
+    pub fn finished(&self) -> f64 {
+        let track = self.spec.x_last - self.spec.x_first;
+        self.crossings as f64 * track / self.points.len().max(1) as f64
+    }
+
     /// Damage of the block so far.
     pub fn map(&self) -> Option<&DamageMap> {
         self.map.as_ref()
@@ -377,7 +411,7 @@ mod tests {
         for travel in [0.03, -0.03] {
             let mut tracker = MaterialTracker::new(TrackerSpec::new((-2.0, 2.0), 0, 10.0));
             for _ in 0..400 {
-                tracker.step(travel, &line);
+                tracker.step(travel, 1.2, &line);
             }
             let cycles = tracker.pressure_cycles().expect("crossings finished");
             assert_eq!((cycles.count, tracker.phases()), (1.0, 16));
@@ -391,17 +425,22 @@ mod tests {
         let line = line(&pressure);
         let mut spec = TrackerSpec::new((-2.0, 2.0), 0, 10.0);
         spec.points = 4; // at −2, 0.47, −1.06 and 1.42
-        let mut tracker = MaterialTracker::new(spec);
-        for _ in 0..104 {
-            tracker.step(0.02, &line);
+        for (behind, finished) in [(f64::INFINITY, 2), (1.2, 3)] {
+            let mut tracker = MaterialTracker::new(spec);
+            for _ in 0..104 {
+                tracker.step(0.02, behind, &line);
+            }
+            // The points from inside and from behind the contact have left.
+            assert_eq!(tracker.crossings(), 0);
+            assert!(tracker.pressure_cycles().is_none());
+            for _ in 0..104 {
+                tracker.step(0.02, behind, &line);
+            }
+            // The last of the three has only just left the contact.
+            assert_eq!(tracker.crossings(), finished);
+            assert_eq!(tracker.finished(), finished as f64);
+            assert_eq!(tracker.pressure_cycles().expect("crossed").count, 1.0);
         }
-        // The points from inside and from behind the contact have left.
-        assert_eq!(tracker.crossings(), 0);
-        assert!(tracker.pressure_cycles().is_none());
-        for _ in 0..104 {
-            tracker.step(0.02, &line);
-        }
-        assert_eq!(tracker.crossings(), 2);
     }
 
     #[test]
@@ -417,7 +456,7 @@ mod tests {
                 tau_xz: None,
                 effective: None,
             };
-            tracker.step(0.0, &line);
+            tracker.step(0.0, 1.2, &line);
         }
         // Mean cycles of pressure so far in the present crossing, which never ends.
         let counts = tracker.points.iter().map(|p| p.pressure.cycles.count);
@@ -435,7 +474,7 @@ mod tests {
         spec.trace = 10;
         let mut tracker = MaterialTracker::new(spec);
         for _ in 0..57 {
-            tracker.step(0.02, &line);
+            tracker.step(0.02, 1.2, &line);
         }
         let xs: Vec<f64> = tracker.trace().map(|s| s.x).collect();
         assert_eq!(xs.len(), 10);

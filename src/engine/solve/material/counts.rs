@@ -42,19 +42,21 @@ impl MaterialTracker {
     /// n(z) = U_i/U_fast + (Z/N d) Σ_small range^c / <maximum range^c>        Z: track, N: points, d: distance
     /// ```
     /// Cycles count as they close, wherever the points then are, and so also for a body that hardly moves or stands;
-    /// the largest of each crossing is the crossing's own. A depth without shear (a frictionless surface) takes the
+    /// the largest of each crossing is the crossing's own; crossings stand for the mean alone once so much of the body has
+    /// finished its own as is `needed` (in a, at most Z). A depth without shear (a frictionless surface) takes the
     /// count below it. False before anything moved.
-    pub fn damage_cycles(&self, (own, fastest): (f64, f64), out: &mut [f64]) -> bool {
+    pub fn damage_cycles(&self, (own, fastest): (f64, f64), needed: f64, out: &mut [f64]) -> bool {
         if fastest <= 0.0 || self.spec.depths == 0 {
             return false;
         }
         let track = self.spec.x_last - self.spec.x_first;
         let passages = fastest * self.points.len() as f64 / track;
         let mut below = own / fastest;
+        let share = (self.finished() / needed.min(track)).min(1.0);
         for k in (0..self.spec.depths).rev() {
             let histories = || self.points.iter().map(|point| &point.shear[k]);
             let open: f64 = histories().map(|h| h.cycles.damage).sum();
-            let greatest = self.greatest_damage(k);
+            let greatest = self.greatest_damage(k, share);
             if greatest > 0.0 {
                 below = own / fastest + (self.ended[k] + open) / (passages * greatest);
             }
@@ -64,10 +66,9 @@ impl MaterialTracker {
     }
 
     /// Mean damage of the largest cycle of a crossing at depth `k`: of all whole crossings, not of each point's last, which are
-    /// milder where surfaces run in. As long as not every point has finished one, what all points together saw stands for the
-    /// rest: those in the valleys of their own surface alone would be milder than the crests by orders of magnitude to the power of c.
-    fn greatest_damage(&self, k: usize) -> f64 {
-        let share = (self.crossings as f64 / self.points.len().max(1) as f64).min(1.0);
+    /// milder where surfaces run in. As long as these are a `share` of those that make a mean, what all points together saw stands
+    /// for the rest: those in the valleys of their own surface alone would be milder than the crests by orders of magnitude to the power of c.
+    fn greatest_damage(&self, k: usize, share: f64) -> f64 {
         let finished = match self.crossings {
             0 => 0.0,
             n => self.greatest[k] / n as f64,

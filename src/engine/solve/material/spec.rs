@@ -40,8 +40,8 @@ impl TrackerSpec {
     pub const SHEAR_GATE: f64 = 0.02;
     /// Gate on the effective stress's ranges, p_h: the same part of its scale (0.62 p_h under Hertz).
     pub const EFFECTIVE_GATE: f64 = 0.03;
-    /// Points where a damage map is kept; untuned.
-    pub const MAP_POINTS: usize = 64;
+    /// Points where a damage map is kept: those of three waves of .43 a fill its 24 columns.
+    pub const MAP_POINTS: usize = 128;
 
     /// Sixteen points, default gates.
     pub fn new((x_first, x_last): (f64, f64), depths: usize, damage_exponent: f64) -> Self {
