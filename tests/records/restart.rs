@@ -221,6 +221,7 @@ fn crafted_states_are_refused_in_words() {
         ("/wanted/settings/4/now", json!(-1.0)),
         ("/life/variants/0/meter/capacity", huge.clone()),
         ("/life/variants/0/meter/window/period", json!(0.0)),
+        ("/life/variants/0/meter/window/round", json!(0.0)),
         (
             "/life/variants/0/meter/phases",
             json!([{"span": -1.0, "shares": shares}]),
@@ -234,7 +235,7 @@ fn crafted_states_are_refused_in_words() {
         ("/counting/trackers/0/spec/points", huge.clone()),
         (first_history, huge),
         ("/counting/trackers/1/points", json!([])),
-        ("/counting/trackers/1/shown", json!(99)),
+        ("/counting/trackers/1/shown", json!(999)),
         ("/counting/trackers/1/oldest", json!(5000)),
         ("/counting/shown_depth", json!(99)),
     ];
