@@ -186,10 +186,11 @@ fn twice(oil: &mut Lubricant) {
     oil.eyring_stress_pa *= 2.0;
 }
 
-/// `None`: it does not get through, or somebody said stop.
+/// That of a run which ends once it has settled, as on the lower meshes of a ladder. `None`: it does not get through, or somebody said
+/// stop.
 fn life(scene: &Scene, stop: &AtomicBool) -> Option<f64> {
     let mut sim = Simulation::new(scene, Plan::new(scene).ok()?, 1).ok()?;
-    while !sim.is_done() {
+    while !sim.is_done() && !sim.has_settled() {
         sim.step().ok()?;
         if stop.load(Ordering::Relaxed) {
             return None;
