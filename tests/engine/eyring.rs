@@ -1,7 +1,7 @@
 //! Eyring oil whose fluidity has a direction: low ripples on gears' line contacts against closed forms.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use crate::ripple::{SteadyFilm, linear_theory, other_wave, two_waves};
 use asperity_engine::physics::eyring::{across, along};
@@ -217,7 +217,11 @@ fn compare(gear: &Gear, wave_m: f64, (flow, law): Form) -> ([Ripple; 3], f64) {
         pressure: flat.pressure_share(wave_m, body_m_s),
         decay: convected.im * hertz.a_m,
     };
-    let first_order = flat.first_order_decay_per_m(wave_m, body_m_s) * hertz.a_m;
+    // k/Q of the convected wave, Q = (12/π²)(η U/(E'h))(W/h)²: how it decays where that is slow.
+    let convected_m = wave_m * flat.entrainment_m_s / body_m_s;
+    let viscous = flat.viscosity_pa_s * flat.entrainment_m_s / (flat.e_prime_pa * flat.film_m);
+    let stiffness = 12.0 / (PI * PI) * viscous * (convected_m / flat.film_m).powi(2);
+    let first_order = TAU / convected_m / stiffness * hertz.a_m;
     let bound = Complex::new(k, 0.0);
     let fitted = |z: &[Complex<f64>]| {
         let (x, z) = read.windowed(z);

@@ -141,8 +141,8 @@ impl DamageCount {
         }
     }
 
-    /// Part of a `period` (in a, at U) of both bodies' surfaces that has crossed the contact; of slow ones a quarter of it
-    /// does, and of those that creep none is waited for.
+    /// Part of a `period` (in a, at U) of both bodies' surfaces that has crossed the contact, columns and, of it or of three
+    /// waves, points; of slow ones a quarter of it does, and of those that creep none is waited for.
     pub(super) fn covers(&self, period: f64, trackers: &[MaterialTracker; 2]) -> f64 {
         let mean = 0.5 * (self.bodies[0].distance + self.bodies[1].distance);
         let part = |(body, tracker): (&BodyCount, &MaterialTracker)| {
