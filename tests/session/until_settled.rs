@@ -33,8 +33,8 @@ fn run(scene: Scene) -> (Plan, Outcome) {
 }
 
 /// Points and lines, S = 0, one rough body, dry, unlike bodies, the count of the paper; with damage maps, which take longer to
-/// fill, and without.
-const CASES: [(&str, &[&str]); 9] = [
+/// fill, and without; waves so long that three of them are more than a period.
+const CASES: [(&str, &[&str]); 10] = [
     ("demonstration", &["grid.nodes=65"]),
     ("demonstration", &["grid.nodes=65", "motion.slide_roll=0"]),
     (
@@ -57,6 +57,14 @@ const CASES: [(&str, &[&str]); 9] = [
         &["grid.nodes=65", "life.damage_map=off"],
     ),
     ("fzg_pitch_point", &["grid.nodes=129"]),
+    (
+        "demonstration",
+        &[
+            "grid.nodes=65",
+            "body_1.surface.wavelength_x_m=4e-4",
+            "body_2.surface.wavelength_x_m=4e-4",
+        ],
+    ),
 ];
 
 #[test]

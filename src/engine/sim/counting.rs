@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::damage_count::DamageCount;
+use super::damage_count::{DamageCount, Passing};
 use super::stress_stage::StressStage;
 use super::{LifeEstimate, Metrics};
 use crate::math::grid::Grid;
@@ -174,15 +174,13 @@ impl Counting {
         }
     }
 
-    /// Moves the points by `travel` (in a) and samples the line y = 0 below the surface loaded last, of a contact of
-    /// `size` times the scene's, where waves of both bodies have come together again after `common` (distances of the bodies, in
-    /// a; `None`: never).
+    /// Moves the points by `travel` (in a) and samples the line y = 0 below the surface loaded last.
     pub(super) fn step(
         &mut self,
         grid: &Grid,
         travel: [f64; 2],
         stress: &StressStage,
-        (size, common): (f64, Option<[f64; 2]>),
+        passing: &Passing,
     ) {
         let line = |body: BodyId| {
             let slice = stress.slice_in(body);
@@ -197,10 +195,9 @@ impl Counting {
         for body in BodyId::BOTH {
             let i = body.index();
             let before = self.trackers[i].crossings();
-            self.trackers[i].step(travel[i], BEHIND * size, &line(body));
+            self.trackers[i].step(travel[i], BEHIND * passing.size, &line(body));
             if let Some(by_damage) = &mut self.by_damage {
-                let common = common.map(|distances| distances[i]);
-                by_damage.step(body, travel[i], &line(body), (size, common));
+                by_damage.step(body, travel[i], &line(body), passing);
             }
             if self.trackers[i].crossings() == before {
                 continue;
@@ -210,7 +207,7 @@ impl Counting {
             profile.is_known = self.trackers[i].cycles_by_depth(shear, by_peaks);
         }
         if let Some(by_damage) = &mut self.by_damage {
-            by_damage.take(travel, &self.trackers);
+            by_damage.take(travel, passing.round, &self.trackers);
         }
         let shown = self.shown_body;
         self.shown = Some(self.trackers[shown.index()].shown(&line(shown)));

@@ -66,6 +66,25 @@ saved! {
     BodyCount { same: own, needed; parts: columns, cycles, ln_ratios; free: distance; }
 }
 
+impl BodyCount {
+    /// Distance, a, whose points' largest cycles make a mean while the mean distance of both bodies is `mean`: of what passes in
+    /// a `round` (in a, at U), of three waves at most and of one at least.
+    fn points_needed(&self, round: f64, mean: f64) -> f64 {
+        let passes = round * self.distance / mean;
+        passes.min(WAVES * self.needed).max(self.needed)
+    }
+}
+
+/// What passes through the contact in a step.
+pub(super) struct Passing {
+    /// Size of the contact over the scene's.
+    pub size: f64,
+    /// Distances of the bodies, a, after which waves of both have come together again; `None`: never.
+    pub common: Option<[f64; 2]>,
+    /// Distance at U, a, over which means are taken: whole common periods where there are some.
+    pub round: f64,
+}
+
 impl DamageCount {
     /// On `grid` at so many `depths` by `laws`; wavelengths of both bodies' crests along x in a; blocks of both bodies over
     /// whose places damage is summed up.
@@ -111,29 +130,24 @@ impl DamageCount {
         (self.fastest, self.is_known) = (0.0, false);
     }
 
-    /// Moves a body's columns by `travel` (in a) below the `line`, in a contact of `size` times the scene's, where waves of both
-    /// have come together again after the body has moved by `common` (in a; `None`: never).
-    pub(super) fn step(
-        &mut self,
-        body: BodyId,
-        travel: f64,
-        line: &Line,
-        (size, common): (f64, Option<f64>),
-    ) {
+    /// Moves a body's columns by `travel` (in a) below the `line`.
+    pub(super) fn step(&mut self, body: BodyId, travel: f64, line: &Line, passing: &Passing) {
         let own = &mut self.bodies[body.index()];
+        let common = passing.common.map(|distances| distances[body.index()]);
         own.columns.repeat_after(own.own, common);
-        own.columns.step(travel, REACH * size, line);
+        own.columns.step(travel, REACH * passing.size, line);
         own.distance += travel.abs();
     }
 
-    /// After both bodies' steps: n and r of now, with the cycles of `trackers`.
-    pub(super) fn take(&mut self, travel: [f64; 2], trackers: &[MaterialTracker; 2]) {
+    /// After both bodies' steps: n and r of now, with the cycles of `trackers`; means are over `round` (in a, at U).
+    pub(super) fn take(&mut self, travel: [f64; 2], round: f64, trackers: &[MaterialTracker; 2]) {
         self.fastest += travel[0].abs().max(travel[1].abs());
         self.is_known = true;
+        let mean = self.mean_distance();
         for (body, tracker) in self.bodies.iter_mut().zip(trackers) {
             let distances = (body.distance, self.fastest);
-            self.is_known &=
-                tracker.damage_cycles(distances, WAVES * body.needed, &mut body.cycles);
+            let share = tracker.finished() / body.points_needed(round, mean);
+            self.is_known &= tracker.damage_cycles(distances, share.min(1.0), &mut body.cycles);
             let depths = body.cycles.len().max(1);
             for (law, out) in body.ln_ratios.chunks_exact_mut(depths).enumerate() {
                 body.columns.ln_ratios(law, body.own, body.needed, out);
@@ -141,24 +155,29 @@ impl DamageCount {
         }
     }
 
-    /// Part of a `period` (in a, at U) of both bodies' surfaces that has crossed the contact, columns and, of it or of three
-    /// waves, points; of slow ones a quarter of it does, and of those that creep none is waited for.
-    pub(super) fn covers(&self, period: f64, trackers: &[MaterialTracker; 2]) -> f64 {
-        let mean = 0.5 * (self.bodies[0].distance + self.bodies[1].distance);
+    /// Part of a `round` (in a, at U) of both bodies' surfaces that has crossed the contact, columns and, of what makes their
+    /// mean, points; of slow ones a quarter of it does, and of those that creep none is waited for.
+    pub(super) fn covers(&self, round: f64, trackers: &[MaterialTracker; 2]) -> f64 {
+        let mean = self.mean_distance();
         let part = |(body, tracker): (&BodyCount, &MaterialTracker)| {
-            let speed = body.distance / mean.max(f64::MIN_POSITIVE);
-            let needed = period * speed * ((speed / SLOW).min(1.0)).powi(2);
+            let speed = body.distance / mean;
+            let needed = round * speed * ((speed / SLOW).min(1.0)).powi(2);
             let creeps = speed < 0.5 * SLOW;
             if creeps {
                 f64::INFINITY
             } else {
                 let columns = body.columns.finished() / needed.max(f64::MIN_POSITIVE);
-                let most = needed.min(WAVES * body.needed);
-                columns.min(tracker.finished() / most.max(f64::MIN_POSITIVE))
+                let points = needed.min(body.points_needed(round, mean));
+                columns.min(tracker.finished() / points.max(f64::MIN_POSITIVE))
             }
         };
         let bodies = self.bodies.iter().zip(trackers).map(part);
         bodies.fold(f64::INFINITY, f64::min)
+    }
+
+    fn mean_distance(&self) -> f64 {
+        let sum = self.bodies[0].distance + self.bodies[1].distance;
+        (0.5 * sum).max(f64::MIN_POSITIVE)
     }
 
     /// n by depth of a body; `None` before anything moved.

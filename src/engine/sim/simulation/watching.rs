@@ -6,6 +6,7 @@ use crate::physics::cycles::speed_ratios;
 use crate::physics::felt::felt_contacts;
 use crate::plan::TimeDependence;
 use crate::sim::counting::{contacts, felt_at_points};
+use crate::sim::damage_count::Passing;
 use crate::sim::fatigue_stage::Now;
 use crate::sim::heat_stage::{HeatStage, SolvedStep, Warmth};
 use crate::sim::measure::{Fields, Measured, measure};
@@ -46,8 +47,12 @@ pub(super) fn watch(
             let travel = [0, 1].map(|body: usize| state.watched[body] - before[body]);
             let ratios = speed_ratios(state.drive.get(Knob::SlideRoll).now);
             let period = state.orbit.period();
-            let common = period.map(|period| ratios.map(|ratio| ratio.abs() * period));
-            counting.step(&work.solver.grid, travel, stress, (size, common));
+            let passing = Passing {
+                size,
+                common: period.map(|period| ratios.map(|ratio| ratio.abs() * period)),
+                round: state.orbit.life_window(plan.decided.passage_a).round,
+            };
+            counting.step(&work.solver.grid, travel, stress, &passing);
         }
     }
     if looks {

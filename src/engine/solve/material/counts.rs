@@ -42,17 +42,16 @@ impl MaterialTracker {
     /// n(z) = U_i/U_fast + (Z/N d) Σ_small range^c / <maximum range^c>        Z: track, N: points, d: distance
     /// ```
     /// Cycles count as they close, wherever the points then are, and so also for a body that hardly moves or stands;
-    /// the largest of each crossing is the crossing's own; crossings stand for the mean alone once so much of the body has
-    /// finished its own as is `needed` (in a, at most Z). A depth without shear (a frictionless surface) takes the
+    /// the largest of each crossing is the crossing's own; crossings that finished weigh by their `share` of
+    /// those that make a mean. A depth without shear (a frictionless surface) takes the
     /// count below it. False before anything moved.
-    pub fn damage_cycles(&self, (own, fastest): (f64, f64), needed: f64, out: &mut [f64]) -> bool {
+    pub fn damage_cycles(&self, (own, fastest): (f64, f64), share: f64, out: &mut [f64]) -> bool {
         if fastest <= 0.0 || self.spec.depths == 0 {
             return false;
         }
         let track = self.spec.x_last - self.spec.x_first;
         let passages = fastest * self.points.len() as f64 / track;
         let mut below = own / fastest;
-        let share = (self.finished() / needed.min(track)).min(1.0);
         for k in (0..self.spec.depths).rev() {
             let histories = || self.points.iter().map(|point| &point.shear[k]);
             let open: f64 = histories().map(|h| h.cycles.damage).sum();
