@@ -19,17 +19,15 @@ use super::state_check::check;
 use super::watching::see_again;
 use crate::physics::cycles::speed_ratios;
 use crate::sim::drive::Drive;
-use crate::sim::sim_plan::SimPlan;
+use crate::sim::sim_plan::{FLUSH, SimPlan};
 use crate::sim::state::Phase;
 use crate::sim::work::Work;
 use crate::sim::{Knob, SimError, State};
 
-/// Distance at U, in a, in which what entered under the neighbour's conditions leaves all but the end of the contact.
-const FLUSH: f64 = 1.6;
 /// Part of it, in a, at the end, that is stepped as the passage is; before it steps are [`LONG`] times as
 /// long, whose own errors have left the inner contact when the passage begins; with 0.75 the film is still 2 % off
 /// in the mean of the passage.
-const USUAL: f64 = 1.1;
+pub(super) const USUAL: f64 = 1.1;
 /// Long steps of settling over those of the passage.
 pub(super) const LONG: f64 = 2.0;
 /// Knobs that a neighbour may differ in.
@@ -169,12 +167,11 @@ impl SettlingSteps {
         }
     }
 
-    /// Same of a steady contact, which has no passage in which what long steps have left leaves it: as long as a start-up's
-    /// development, and all but the first of it in usual steps.
-    pub(super) fn of_steady(walk: f64, develop: f64, dt: f64) -> Self {
+    /// Same in usual steps alone over `length` (in a) once knobs stand.
+    pub(super) fn of_climb(walk: f64, length: f64, dt: f64) -> Self {
         Self {
             long: (walk / (LONG * dt)).ceil() as u64,
-            usual: (develop / dt).ceil() as u64,
+            usual: (length / dt).ceil() as u64,
             dt,
         }
     }

@@ -4,17 +4,18 @@
 //! contact     pressure, film and masses of the coarser run, interpolated; H0 and the places of both bodies as they are
 //! skins       what has flowed and what is worn, at the new columns; the damage of the nearest column
 //! reference   the smooth contact, interpolated and made steady on this mesh: first of all, while the rough one waits
-//! settle      1.6 a at U ([`super::follow`]), a steady contact 4 a: what the interpolation disturbed leaves the contact, then
-//!             the passage begins
+//! settle      1.1 a at U in usual steps, a steady contact as long as a start-up's development: what the interpolation
+//!             disturbed leaves the contact, then the passage begins
 //! ```
-//! Bilinear interpolation leaves load and mass, sums by the trapezoidal rule, as they are. Averages, counts and the search
-//! for an orbit begin anew. The base of the lives moves with the reference: what a load costs is a ratio of two smooth
+//! Interpolation by cubics leaves the load, a sum by the trapezoidal rule, as it is, and the past goes along: the first
+//! step is of second order, too. Averages, counts and the search for an orbit begin anew. Over settling of 0.6 to 1.6 a lives of five
+//! presets are within 1.3 % of each other, and central films within 1e-4. The base of the lives moves with the reference: what a load costs is a ratio of two smooth
 //! contacts, and both are of one mesh.
 //!
 //! The passage of the last rung begins with both surfaces where a run on that mesh alone would have them: the first rung is
 //! sent ahead by what the settling of the others takes ([`head_start`]).
 
-use super::follow::{SettlingSteps, cold_distances};
+use super::follow::{SettlingSteps, USUAL, cold_distances};
 use super::present::conditions;
 use super::watching::{publish, see_again};
 use crate::math::grid::refined_nodes;
@@ -77,10 +78,11 @@ pub(super) fn climb(
         left: plan.smooth_steps(fine.nx, plan.decided.has_flow()),
     });
     let (walk, dt) = (state.drive.walk_left(), plan.usual_dt());
-    let settling = match plan.decided.time_dependence {
-        TimeDependence::Steady { .. } => SettlingSteps::of_steady(walk, plan.develop(), dt),
-        TimeDependence::Transient => SettlingSteps::new(walk, dt),
+    let length = match plan.decided.time_dependence {
+        TimeDependence::Steady { .. } => plan.develop(),
+        TimeDependence::Transient => USUAL,
     };
+    let settling = SettlingSteps::of_climb(walk, length, dt);
     state.motion.disturb(settling.length());
     state.phase = settling.phase();
     let smooth_steps = state.smooth.as_ref().map_or(0, |smooth| smooth.left);
@@ -170,7 +172,7 @@ pub fn head_start(rungs: &[(&Scene, &Plan)]) -> [f64; 2] {
     };
     let (own, goal) = (launch(first), launch(last));
     let settling: f64 = (plans.iter().skip(1))
-        .map(|plan| SettlingSteps::new(0.0, plan.usual_dt()).length())
+        .map(|plan| SettlingSteps::of_climb(0.0, USUAL, plan.usual_dt()).length())
         .sum();
     let shares = speed_ratios(last.scene.motion.slide_roll);
     [0, 1].map(|body: usize| goal[body] - own[body] - settling * shares[body])
