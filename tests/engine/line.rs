@@ -7,7 +7,7 @@ use asperity_engine::math::grid::{Grid, Symmetry};
 use asperity_engine::plan::{LINE_ROWS, Plan};
 use asperity_engine::scene::{ContactKind, Order, Override, Scene, StressMeasure};
 use asperity_engine::sim::{Frame, Knob, Simulation};
-use asperity_engine::solve::march::{Conditions, Flow, Guess, March, Shape};
+use asperity_engine::solve::march::{Conditions, Flow, Guess, March, Shape, Solver};
 use asperity_engine::solve::newton::{NewtonReport, Tolerance, Verdict};
 use asperity_engine::solve::reynolds::Medium;
 use asperity_engine::solve::stress::{LineStress, SliceOut};
@@ -180,8 +180,10 @@ const REFERENCE: [Reference; 3] = [
 /// Mean over |X| ≤ `reach` of the film's first harmonic in time, over the amplitude of the waves.
 fn ripple(case: &Case, smooth: &March, w: f64, reach: f64) -> (f64, u32, usize) {
     let nodes = smooth.solver.grid.nx;
-    let mut march = March::refined(smooth, case.grid(nodes), &LINE, 1.0, Flow::Film);
-    march.state = smooth.state.clone();
+    let mut march = March {
+        state: smooth.state.clone(),
+        solver: Solver::new(case.grid(nodes), &LINE, 1.0, Flow::Film),
+    };
     let dx = march.solver.grid.dx;
     let amplitude = 0.1 * central(&march);
     let steps = (w / dx).round() as usize;

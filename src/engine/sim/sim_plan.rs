@@ -21,11 +21,11 @@ const COARSEST: usize = 65;
 /// Time (a/U) to ramp sliding and roughness and to flush the contact once; also what a steady contact
 /// takes to be steady again after a knob moved.
 const DEVELOP: f64 = 4.0;
-/// Distance at U, in a, in which what entered under other conditions leaves all but the end of the contact.
-pub(super) const FLUSH: f64 = 1.6;
 /// Same of a steady contact that is solved with high order, whose correction follows the film step by step: with ridges along the
 /// motion (demonstration) the central film is after 4, 8 and 12 a still 2.0, 0.3 and 0.02 % from where it comes to rest on 65 nodes.
 const DEVELOP_CORRECTED: f64 = 12.0;
+/// Part of the domain along x over which a smooth contact moves on a grid to which it has been interpolated; 1.6 a of the default scene.
+const REFLUSHED: f64 = 0.4;
 
 /// The plan of a scene, and what else follows from it.
 pub(super) struct SimPlan {
@@ -126,17 +126,17 @@ impl SimPlan {
 
     /// Smooth steps on a grid of `nodes` per side: the first grid is flushed from inlet to outlet, on the finer ones the
     /// error of interpolation leaves all but the end of the contact: central and least film of the default scene on 257 nodes are then within
-    /// 5e-4 of what they are after twice as many. Without flow one solve is enough.
+    /// 5e-4 of what they are after nearly twice as many. Without flow one solve is enough.
     pub(super) fn smooth_steps(&self, nodes: usize, flows: bool) -> u64 {
         if !flows {
             return 2;
         }
-        let way = if nodes == self.first_nodes() {
-            self.length()
+        let share = if nodes == self.first_nodes() {
+            1.0
         } else {
-            FLUSH
+            REFLUSHED
         };
-        (way / self.usual_step(nodes)).ceil() as u64
+        (share * self.length() / self.usual_step(nodes)).ceil() as u64
     }
 
     /// Distance of both bodies, in a, in the smooth part of the start-up.

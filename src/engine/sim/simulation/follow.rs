@@ -19,11 +19,13 @@ use super::state_check::check;
 use super::watching::see_again;
 use crate::physics::cycles::speed_ratios;
 use crate::sim::drive::Drive;
-use crate::sim::sim_plan::{FLUSH, SimPlan};
+use crate::sim::sim_plan::SimPlan;
 use crate::sim::state::Phase;
 use crate::sim::work::Work;
 use crate::sim::{Knob, SimError, State};
 
+/// Distance at U, in a, in which what entered under the neighbour's conditions leaves all but the end of the contact.
+const FLUSH: f64 = 1.6;
 /// Part of it, in a, at the end, that is stepped as the passage is; before it steps are [`LONG`] times as
 /// long, whose own errors have left the inner contact when the passage begins; with 0.75 the film is still 2 % off
 /// in the mean of the passage.
