@@ -25,13 +25,13 @@ const CASES: [Case; 6] = [
         name: "mixed, mirrored",
         preset: "demonstration_quick",
         sets: &["grid.nodes=65", "time.passages=0.5"],
-        golden: [160, 451, 2112, 22_064, 0],
+        golden: [160, 486, 2223, 23_314, 0],
     },
     Case {
         name: "mixed, three periods",
         preset: "demonstration_quick",
         sets: &["grid.nodes=65", "time.passages=1.4"],
-        golden: [218, 567, 2664, 27_888, 0],
+        golden: [218, 603, 2803, 29_382, 0],
     },
     Case {
         name: "mixed, whole grid, mass-conserving",
@@ -51,7 +51,7 @@ const CASES: [Case; 6] = [
         name: "dry",
         preset: "demonstration_quick",
         sets: &["grid.nodes=65", "time.passages=0.5", "lubricant=none"],
-        golden: [131, 579, 1163, 6586, 0],
+        golden: [131, 622, 1195, 6792, 0],
     },
     Case {
         name: "line",
@@ -64,7 +64,7 @@ const CASES: [Case; 6] = [
             "body_2.surface.wavelength_y_m=inf",
             "time.passages=1",
         ],
-        golden: [309, 838, 2936, 30_578, 0],
+        golden: [309, 859, 2995, 31_199, 0],
     },
     Case {
         name: "unlike bodies, near dry",
@@ -75,7 +75,7 @@ const CASES: [Case; 6] = [
             "motion.slide_roll=0.5",
             "motion.entrainment_m_s=5e-2",
         ],
-        golden: [160, 542, 2446, 27_683, 7],
+        golden: [160, 556, 2509, 28_323, 7],
     },
 ];
 

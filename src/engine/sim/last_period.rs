@@ -81,13 +81,6 @@ impl LastPeriod {
         self.pressures.clear();
     }
 
-    /// Its distances become `less`.
-    pub(super) fn shift(&mut self, less: f64) {
-        for step in &mut self.steps {
-            step.distance -= less;
-        }
-    }
-
     /// Whether its guess is the one to begin with.
     pub(super) fn is_better(&self) -> bool {
         self.is_better

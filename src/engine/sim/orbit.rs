@@ -139,14 +139,8 @@ impl Orbit {
 
     /// Begins anew: what was before belongs to other conditions.
     pub(super) fn restart(&mut self) {
-        self.last_period.restart();
-        self.begin_counting(0.0);
-    }
-
-    /// Begins anew with distances `less` than before; the last period stays a guess.
-    pub(super) fn begin_counting(&mut self, less: f64) {
-        self.last_period.shift(less);
         self.taken = 0;
+        self.last_period.restart();
         self.before = None;
         self.drift = None;
         self.means = Means::default();
@@ -154,15 +148,10 @@ impl Orbit {
 
     /// Takes the frequencies at which crests pass; true when they are new.
     pub(super) fn listen(&mut self, frequencies: [f64; 4], passage: f64) -> bool {
-        let is_same = frequencies == self.frequencies;
-        if is_same && self.taken > 0 {
+        if frequencies == self.frequencies && self.taken > 0 {
             return false;
         }
-        if is_same {
-            self.begin_counting(0.0);
-        } else {
-            self.restart();
-        }
+        self.restart();
         self.frequencies = frequencies;
         (self.rhythm, self.period) = if frequencies == [0.0; 4] {
             (Rhythm::Steady, 1.0)
@@ -241,8 +230,11 @@ impl Orbit {
             self.push_means(distance, step, metrics);
             return;
         }
-        self.remember((distance, step, usual), contact);
         let (pressure, film) = (&contact.pressure, &contact.film);
+        if self.rhythm == Rhythm::Orbit {
+            let rounds = usual.map_or(self.period, |usual| self.rounds(usual));
+            (self.last_period).push(distance, step, rounds, contact.h0, pressure);
+        }
         self.ring.rotate_left(1);
         self.ring[3].take(distance, pressure, film);
         self.taken = self.taken.saturating_add(1);
@@ -254,18 +246,6 @@ impl Orbit {
         if self.taken >= 4 && self.ring[2].distance >= target {
             self.drift = Some(self.compare(target));
             self.begin(step);
-        }
-    }
-
-    /// Keeps the step for the guess of one a period later alone.
-    pub(super) fn remember(
-        &mut self,
-        (distance, step, usual): (f64, f64, Option<f64>),
-        contact: &ContactState,
-    ) {
-        if self.rhythm == Rhythm::Orbit {
-            let rounds = usual.map_or(self.period, |usual| self.rounds(usual));
-            (self.last_period).push(distance, step, rounds, contact.h0, &contact.pressure);
         }
     }
 

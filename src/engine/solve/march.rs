@@ -204,42 +204,38 @@ impl March {
 /// are zero at the edge keep their sum.
 fn prolong(coarse: &Grid, from: &[f64], fine: &Grid) -> Vec<f64> {
     let mut to = vec![0.0; fine.len()];
-    let row = |j: usize| 2 * j * fine.nx;
     for (j, from) in from.chunks_exact(coarse.nx).enumerate() {
-        let slope = |i: usize| {
-            let (before, after) = (i.max(1) - 1, (i + 1).min(coarse.nx - 1));
-            held_slope(from[i], from[before], from[after], after - before)
-        };
-        let to = &mut to[row(j)..][..fine.nx];
-        for i in 0..coarse.nx {
-            to[2 * i] = from[i];
-            if i > 0 {
-                to[2 * i - 1] = 0.5 * (from[i - 1] + from[i]) + 0.125 * (slope(i - 1) - slope(i));
-            }
+        let start = 2 * j * fine.nx;
+        for (i, &value) in from.iter().enumerate() {
+            to[start + 2 * i] = value;
         }
+        fill_amid(&mut to, (start, 1), coarse.nx, false);
     }
     let is_mirrored = coarse.symmetry == Symmetry::MirrorY;
-    for j in 1..coarse.ny {
-        for i in 0..fine.nx {
-            let at = |j: usize| to[row(j) + i];
-            let slope = |j: usize| {
-                if j == 0 && is_mirrored {
-                    return 0.0;
-                }
-                let (before, after) = (j.max(1) - 1, (j + 1).min(coarse.ny - 1));
-                held_slope(at(j), at(before), at(after), after - before)
-            };
-            to[row(j) - fine.nx + i] =
-                0.5 * (at(j - 1) + at(j)) + 0.125 * (slope(j - 1) - slope(j));
-        }
+    for i in 0..fine.nx {
+        fill_amid(&mut to, (i, fine.nx), coarse.ny, is_mirrored);
     }
     to
 }
 
-/// Slope per interval at a node between two others that are so many intervals apart.
-fn held_slope(here: f64, before: f64, after: f64, intervals: usize) -> f64 {
-    let most = 4.0 * here.abs();
-    ((after - before) / intervals as f64).max(-most).min(most)
+/// Fills what lies amid `nodes` known values, the first at `start` and each two strides from the one before.
+fn fill_amid(to: &mut [f64], (start, stride): (usize, usize), nodes: usize, starts_mirrored: bool) {
+    let mut before = 0.0;
+    for k in 0..nodes {
+        let at = |k: usize| to[start + 2 * k * stride];
+        let (below, above) = (k.max(1) - 1, (k + 1).min(nodes - 1));
+        let most = 4.0 * at(k).abs();
+        let slope = (at(above) - at(below)) / (above - below).max(1) as f64;
+        let mut slope = slope.max(-most).min(most);
+        if k == 0 && starts_mirrored {
+            slope = 0.0;
+        }
+        if k > 0 {
+            let amid = 0.5 * (at(k - 1) + at(k)) + 0.125 * (before - slope);
+            to[start + (2 * k - 1) * stride] = amid;
+        }
+        before = slope;
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::ageing::age;
 use super::follow;
 use super::smooth_reference::step_smooth;
 use super::start_up::refine_or_develop;
-use super::watching::{look_for_orbit, remember_orbit, watch};
+use super::watching::{look_for_orbit, watch};
 use crate::plan::TimeDependence;
 use crate::sim::pace::Stepping;
 use crate::sim::sim_plan::SimPlan;
@@ -43,9 +43,6 @@ pub(super) fn step(
             Phase::Settle { long: 0, usual: 0 } => state.phase = Phase::Develop { left: 0 },
             Phase::Settle { long, usual } => {
                 advance(plan, state, work, stats)?;
-                if long == 0 {
-                    remember_orbit(plan, state, &work.roughness);
-                }
                 state.phase = Phase::Settle {
                     long: long.saturating_sub(1),
                     usual: usual - u64::from(long == 0),
@@ -55,7 +52,6 @@ pub(super) fn step(
             Phase::Develop { left } => {
                 step_smooth(plan, state, work, stats)?;
                 advance(plan, state, work, stats)?;
-                remember_orbit(plan, state, &work.roughness);
                 state.phase = Phase::Develop { left: left - 1 };
                 break;
             }
@@ -68,25 +64,20 @@ pub(super) fn step(
 
 fn begin_passage(plan: &SimPlan, state: &mut State) {
     state.phase = Phase::Passage;
-    state.orbit.begin_counting(state.distance);
     (state.time_s, state.distance) = (0.0, 0.0);
     state.motion.launch();
-    forget_counts(plan, state);
+    forget_passage(plan, state);
 }
 
-/// Counts and phases seen so far, and the last period, belong to other conditions. The next step is looked at.
+/// Counts and phases seen so far belong to other conditions. The next step is looked at.
 pub(super) fn forget_passage(plan: &SimPlan, state: &mut State) {
-    state.orbit.restart();
-    forget_counts(plan, state);
-}
-
-fn forget_counts(plan: &SimPlan, state: &mut State) {
     if let Some(worn) = &mut state.worn {
         worn.forget_block();
     }
     if let Some(warmth) = &mut state.warmth {
         warmth.forget();
     }
+    state.orbit.restart();
     let window = state.orbit.life_window(plan.decided.passage_a);
     if let Some(life) = &mut state.life {
         life.restart(window);

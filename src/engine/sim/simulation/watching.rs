@@ -156,8 +156,18 @@ pub(super) fn look_for_orbit(
     roughness: &Roughness,
     before: f64,
 ) {
+    let s = state.drive.get(Knob::SlideRoll).now;
+    let mut frequencies = [0.0; 4];
+    for (body, speed) in speed_ratios(s).into_iter().enumerate() {
+        let amplitude = Knob::AMPLITUDES[body];
+        if state.drive.get(amplitude).now != 0.0 {
+            for (plane, k) in roughness.wavenumbers(body).into_iter().enumerate() {
+                frequencies[2 * body + plane] = k * speed / std::f64::consts::TAU;
+            }
+        }
+    }
     let passage = plan.decided.passage_a;
-    if listen(plan, state, roughness)
+    if state.orbit.listen(frequencies, passage)
         && let Some(life) = &mut state.life
     {
         life.set_window(state.orbit.life_window(passage));
@@ -169,32 +179,6 @@ pub(super) fn look_for_orbit(
     }
     let second_per_a = plan.scaling.a_m / state.drive.get(Knob::EntrainmentMS).now;
     state.metrics.repeat = Some(state.orbit.repeat(second_per_a));
-}
-
-/// Keeps the last step of the start-up, one of the usual length, for the guess of one of the passage a period later, unless a
-/// knob walks.
-pub(super) fn remember_orbit(plan: &SimPlan, state: &mut State, roughness: &Roughness) {
-    if state.drive.is_walking() {
-        return;
-    }
-    listen(plan, state, roughness);
-    let step = (state.distance, plan.usual_dt(), plan.fitted_dt());
-    state.orbit.remember(step, &state.contact);
-}
-
-/// Tells the orbit how often crests pass now; whether that is new.
-fn listen(plan: &SimPlan, state: &mut State, roughness: &Roughness) -> bool {
-    let s = state.drive.get(Knob::SlideRoll).now;
-    let mut frequencies = [0.0; 4];
-    for (body, speed) in speed_ratios(s).into_iter().enumerate() {
-        let amplitude = Knob::AMPLITUDES[body];
-        if state.drive.get(amplitude).now != 0.0 {
-            for (plane, k) in roughness.wavenumbers(body).into_iter().enumerate() {
-                frequencies[2 * body + plane] = k * speed / std::f64::consts::TAU;
-            }
-        }
-    }
-    state.orbit.listen(frequencies, plan.decided.passage_a)
 }
 
 /// Traction and scalars of the contact.
