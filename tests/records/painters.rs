@@ -367,7 +367,11 @@ fn two_presets_a_line_contact_and_a_dry_scene_look_alike_in_all_painters() {
     dry.lubricant = None;
     let scenes = [
         scene("demonstration_quick", &[SMALL]),
-        scene("fzg_point_b", &["grid.nodes=129"]),
+        // Its waves stand so that enough of the last frame is smooth.
+        scene(
+            "fzg_point_b",
+            &["grid.nodes=129", "body_1.surface.phase_deg=90"],
+        ),
         scene("mtm_ball_on_disc", &[SMALL]),
         dry,
     ];
@@ -377,9 +381,8 @@ fn two_presets_a_line_contact_and_a_dry_scene_look_alike_in_all_painters() {
             "{}: {} places, {} in contact, {} above the range",
             scene.title, compared.all, compared.in_contact, compared.above
         );
-        // Of the screen's places those that recordings show too, and of these those where the field of the last frame is smooth: from
-        // 230 (point B) to 340. That something is compared is all that the floor says.
-        assert!(compared.all > 200 && compared.above > 20, "{}", scene.title);
+        // Of the screen's places those that recordings show too.
+        assert!(compared.all > 250 && compared.above > 20, "{}", scene.title);
     }
     assert_eq!(scenes[1].contact.kind, ContactKind::Line);
     assert!(compared.iter().any(|compared| compared.in_contact > 20));
