@@ -8,4 +8,5 @@ mod phases;
 mod rungs;
 mod session;
 mod stalls;
+mod surfaces;
 mod until_settled;

@@ -48,7 +48,7 @@ pub use frame::{CATALOGUE, Dimension, Frame, Metrics, Over, Quantity, Reading, S
 pub use grounds::{Beside, Grounds};
 pub use headline::{Cause, Headline};
 pub use lubrication::LubricationRegime;
-pub use simulation::{Simulation, head_start};
+pub use simulation::{Simulation, climb_distances};
 pub use state::State;
 pub use stats::Stats;
 pub use summary::{AgePoint, PitHistory, PitStart, Rung, Summary};

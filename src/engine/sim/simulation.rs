@@ -35,7 +35,8 @@ use crate::plan::{Plan, TimeDependence};
 use crate::saved::Saved as _;
 use crate::scene::Scene;
 use crate::sim::pace::Stepping;
-pub use rung::head_start;
+use follow::cold_distances;
+pub use rung::climb_distances;
 use state_check::{check, check_course, check_stats};
 use step::{forget_passage, step};
 use view::View;
@@ -62,7 +63,12 @@ impl Simulation {
         let pool = thread_pool(threads)?;
         let plan = SimPlan::new(scene, plan);
         let mut work = Work::new(&plan, plan.first_nodes(), pool)?;
-        let state = State::new(&plan, &mut work);
+        let mut state = State::new(&plan, &mut work);
+        // Surfaces stand as the scene says when the passage begins.
+        let develops = start_up::develops(&state, &work);
+        let ahead = cold_distances(&plan, &state.targets, develops, plan.usual_dt());
+        state.motion.travelled = ahead.map(|distance| -distance);
+        state.watched = state.motion.travelled;
         let stats = Stats::default();
         let mut this = Self {
             plan,
@@ -241,6 +247,11 @@ impl Simulation {
         self.state.start_up_progress()
     }
 
+    /// Whether the start-up is over and no step made since: t = 0.
+    pub fn is_launched(&self) -> bool {
+        self.state.phase == Phase::Passage && self.state.step == 0
+    }
+
     /// Simulated time since the start-up, s.
     pub fn time_s(&self) -> f64 {
         self.state.time_of_passage_s()
@@ -324,11 +335,11 @@ impl Simulation {
         rung::climb(&self.plan, &mut self.state, &mut self.work, lower)
     }
 
-    /// Sends both surfaces ahead, before the first step, by so much (in a): see [`head_start`].
-    pub fn start_ahead(&mut self, distances: [f64; 2]) {
+    /// Holds both surfaces back, before the first step, by so much (in a): see [`climb_distances`].
+    pub fn hold_back(&mut self, distances: [f64; 2]) {
         let travelled = &mut self.state.motion.travelled;
         for (travelled, distance) in travelled.iter_mut().zip(distances) {
-            *travelled += distance;
+            *travelled -= distance;
         }
         self.state.watched = self.state.motion.travelled;
     }

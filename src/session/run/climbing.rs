@@ -145,7 +145,7 @@ impl Driver {
 
     /// Keeps where the passage began, on a mesh that is not the last.
     pub(super) fn keep_launch(&mut self, sim: &Simulation) {
-        if sim.passage_steps() == 1 && has_begun(sim) && !self.is_on_top() {
+        if sim.is_launched() && !self.is_on_top() {
             self.climb.launch = Some(sim.save());
         }
     }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::Scene;
-use asperity_engine::sim::{Rung, SimError, Simulation, State, Summary, head_start};
+use asperity_engine::sim::{Rung, SimError, Simulation, State, Summary, climb_distances};
 
 use super::errors::coarser;
 
@@ -35,8 +35,8 @@ pub struct Mesh {
 #[derive(Debug, Clone)]
 pub struct Ladder {
     meshes: Vec<Mesh>,
-    /// What the surfaces of the first one are ahead, in a.
-    ahead: [f64; 2],
+    /// What the surfaces of the first one are held back, in a.
+    climb_distances: [f64; 2],
 }
 
 /// How far a run has come on its ladder: what it saves beside the simulation.
@@ -70,8 +70,11 @@ impl Ladder {
         let pairs: Vec<_> = (meshes.iter())
             .map(|mesh| (&*mesh.scene, &mesh.plan))
             .collect();
-        let ahead = head_start(&pairs);
-        Self { meshes, ahead }
+        let climb_distances = climb_distances(&pairs);
+        Self {
+            meshes,
+            climb_distances,
+        }
     }
 
     /// The meshes, the coarsest first.
@@ -127,7 +130,9 @@ impl Ladder {
         }
         match lower {
             Some(lower) => sim.climb(lower)?,
-            None if nodes == self.meshes[0].plan.domain.nodes => sim.start_ahead(self.ahead),
+            None if nodes == self.meshes[0].plan.domain.nodes => {
+                sim.hold_back(self.climb_distances)
+            }
             None => {}
         }
         Ok(sim)

@@ -3,7 +3,7 @@
 //! ```text
 //! contact     pressure, film and history of the neighbour's last step
 //! knobs       walk from the neighbour's values to this scene's at their own rates
-//! surfaces    x_i(end) = x_i(cold start) (mod W_i)        the distance that is missing is spread over the walk
+//! surfaces    x_i(end) = 0 (mod W_i), as after any start  the distance that is missing is spread over the walk
 //! settle      max(walk, spread) + 1.6 a at U, then the passage begins like any other
 //! ```
 //! Only S and the two amplitudes may differ: they leave the scales, the domain and the smooth reference as
@@ -14,7 +14,6 @@
 //! and the central film within 0.05 % of what they are after settling for 4 a in short steps (0.07 and 0.05 % after
 //! 2 a). Without the lead they are 1.3 % off at S = 0 (`tests/command_line/sweep.rs`, `a_warm_case_is_what_a_cold_one_is`).
 
-use super::start_up::develops;
 use super::state_check::check;
 use super::watching::see_again;
 use crate::physics::cycles::speed_ratios;
@@ -53,7 +52,6 @@ pub(super) fn follow(
 ) -> Result<(), SimError> {
     take_over(plan, state, work, neighbour)?;
     let dt = plan.usual_dt();
-    let goal = cold_distances(plan, &state.targets, develops(state, work), dt);
     for knob in FREE {
         let targets = state.targets.get(knob).target;
         state.drive.jump(knob, neighbour.drive.get(knob).now);
@@ -68,13 +66,19 @@ pub(super) fn follow(
     let mut settling = SettlingSteps::new(walk, dt);
     let mut over = 0.0;
     for _ in 0..2 {
-        let lead = lead_after(state, work, &settling, goal);
-        let longest = lead.into_iter().map(f64::abs).fold(0.0, f64::max);
+        let ends = ends(state, &settling);
+        let leads = [0, 1].map(|body: usize| led(work, body, ends[body]).0.abs());
+        let longest = leads.into_iter().fold(0.0, f64::max);
         over = (longest / LEAD).max(LEAST_LEAD);
         settling = SettlingSteps::new(walk.max(over), dt);
     }
-    let lead = lead_after(state, work, &settling, goal);
-    state.motion.lead(lead, over);
+    let ends = ends(state, &settling);
+    let led = [0, 1].map(|body: usize| led(work, body, ends[body]));
+    state.motion.lead(led.map(|(lead, _)| lead), over);
+    // So that material points meet the nodes as after a cold start: between nodes stress is read by interpolation.
+    for (distance, (_, whole)) in state.motion.travelled.iter_mut().zip(led) {
+        *distance -= whole;
+    }
     state.motion.disturb(settling.length());
     state.phase = settling.phase();
     state.start_up_steps = (0, settling.steps());
@@ -83,34 +87,28 @@ pub(super) fn follow(
     Ok(())
 }
 
-/// What both surfaces lack of their places after settling.
-fn lead_after(state: &State, work: &Work, settling: &SettlingSteps, goal: [f64; 2]) -> [f64; 2] {
-    let half = distances(
-        &state.drive,
-        state.motion.travelled,
-        (settling.long, LONG * settling.dt),
-    );
-    let end = distances(&half.0, half.1, (settling.usual, settling.dt)).1;
-    [0, 1].map(|body: usize| missing(work, body, goal[body] - end[body]))
+/// Where both bodies are after settling.
+fn ends(state: &State, settling: &SettlingSteps) -> [f64; 2] {
+    let travelled = state.motion.travelled;
+    let half = distances(&state.drive, travelled, (settling.long, LONG * settling.dt));
+    distances(&half.0, half.1, (settling.usual, settling.dt)).1
 }
 
-/// What a distance is short of, modulo the body's wave: between −W/2 and W/2. A body without one wave along x
-/// has no place to be led to.
-fn missing(work: &Work, body: usize, distance: f64) -> f64 {
-    match work.roughness.wavenumbers(body).map(f64::abs) {
-        [one, two] if one > 0.0 && (two == 0.0 || two == one) => {
-            let wave = std::f64::consts::TAU / one;
-            distance - wave * (distance / wave).round()
+/// What a body that would come to `end` is short of a place that looks like 0, and that place: at most half a wave away; one
+/// that does not come back looks like 0 nowhere.
+fn led(work: &Work, body: usize, end: f64) -> (f64, f64) {
+    let is_rough = work.roughness.is_rough(body);
+    match work.roughness.repeat(body) {
+        Some(wave) if wave.is_finite() => {
+            let whole = wave * (end / wave).round();
+            (whole - end, whole)
         }
-        [0.0, two] if two > 0.0 => {
-            let wave = std::f64::consts::TAU / two;
-            distance - wave * (distance / wave).round()
-        }
-        _ => 0.0,
+        None if is_rough => (0.0, 0.0),
+        Some(_) | None => (0.0, end),
     }
 }
 
-/// Where a cold start would have both surfaces when the passage begins, in a.
+/// Where a cold start has both surfaces when the passage begins, in a, if they set out from 0.
 pub(super) fn cold_distances(plan: &SimPlan, targets: &Drive, develops: bool, dt: f64) -> [f64; 2] {
     let smooth = plan.smooth_distance();
     let steps = (plan.develop() / dt).ceil() as u64;

@@ -12,23 +12,23 @@
 //! presets are within 1.3 % of each other, and central films within 1e-4. The base of the lives moves with the reference: what a load costs is a ratio of two smooth
 //! contacts, and both are of one mesh.
 //!
-//! The passage of the last rung begins with both surfaces where a run on that mesh alone would have them: the first rung is
-//! sent ahead by what the settling of the others takes ([`head_start`]).
+//! The passage of the last rung begins with both surfaces where the scene says they are at t = 0: the first rung is held back
+//! by what the settling of the others takes ([`climb_distances`]).
 
-use super::follow::{SettlingSteps, USUAL, cold_distances};
+use super::follow::{SettlingSteps, USUAL};
 use super::present::conditions;
 use super::watching::{publish, see_again};
 use crate::math::grid::refined_nodes;
 use crate::physics::cycles::speed_ratios;
 use crate::plan::{Plan, TimeDependence};
 use crate::saved::Saved as _;
-use crate::scene::{Scene, Surface, Warming};
+use crate::scene::Scene;
 use crate::sim::drive::Drive;
 use crate::sim::measure::{Fields, Measured, RowSums, measure};
 use crate::sim::motion::Travel;
 use crate::sim::sim_plan::SimPlan;
 use crate::sim::smooth::{LoadAndSpeed, Smooth};
-use crate::sim::state::{Phase, drive_of};
+use crate::sim::state::Phase;
 use crate::sim::stepping::Attempted;
 use crate::sim::work::Work;
 use crate::sim::{Knob, SimError, State};
@@ -77,12 +77,7 @@ pub(super) fn climb(
         at,
         left: plan.smooth_steps(fine.nx, plan.decided.has_flow()),
     });
-    let (walk, dt) = (state.drive.walk_left(), plan.usual_dt());
-    let length = match plan.decided.time_dependence {
-        TimeDependence::Steady { .. } => plan.develop(),
-        TimeDependence::Transient => USUAL,
-    };
-    let settling = SettlingSteps::of_climb(walk, length, dt);
+    let settling = settling(plan, state.drive.walk_left());
     state.motion.disturb(settling.length());
     state.phase = settling.phase();
     let smooth_steps = state.smooth.as_ref().map_or(0, |smooth| smooth.left);
@@ -154,26 +149,27 @@ pub(super) fn measure_smooth(
     measure(&fields, &mut traction, &mut rows)
 }
 
-/// Distances, in a, by which the surfaces of the first of these runs, each on twice the intervals of the one before, must
-/// be ahead for the passage of the last to begin where it does in a run on its mesh alone.
-pub fn head_start(rungs: &[(&Scene, &Plan)]) -> [f64; 2] {
-    let plans = rungs
-        .iter()
-        .map(|(scene, plan)| SimPlan::new(scene, (*plan).clone()));
-    let plans: Vec<SimPlan> = plans.collect();
-    let (Some(first), Some(last)) = (plans.first(), plans.last()) else {
-        return [0.0; 2];
+/// Distances, in a, that both surfaces come while runs by these plans settle, each after having climbed from the one before:
+/// by so much the first must be held back for t = 0 of the last to find them as the scene says.
+pub fn climb_distances(rungs: &[(&Scene, &Plan)]) -> [f64; 2] {
+    let settling = rungs.iter().skip(1).map(|(scene, plan)| {
+        let plan = SimPlan::new(scene, (*plan).clone());
+        settling(&plan, 0.0).length()
+    });
+    let (all, slide_roll) = (
+        settling.sum::<f64>(),
+        rungs
+            .first()
+            .map_or(0.0, |(scene, _)| scene.motion.slide_roll),
+    );
+    speed_ratios(slide_roll).map(|ratio| ratio * all)
+}
+
+/// Steps of settling once knobs have walked for so long.
+fn settling(plan: &SimPlan, walk: f64) -> SettlingSteps {
+    let length = match plan.decided.time_dependence {
+        TimeDependence::Steady { .. } => plan.develop(),
+        TimeDependence::Transient => USUAL,
     };
-    let launch = |plan: &SimPlan| {
-        let develops = plan.scene.motion.slide_roll != 0.0
-            || plan.scene.warming() == Warming::SurfacesAndOil
-            || (plan.scene.surfaces().iter()).any(|surface| !matches!(surface, Surface::Smooth {}));
-        cold_distances(plan, &drive_of(&plan.scene), develops, plan.usual_dt())
-    };
-    let (own, goal) = (launch(first), launch(last));
-    let settling: f64 = (plans.iter().skip(1))
-        .map(|plan| SettlingSteps::of_climb(0.0, USUAL, plan.usual_dt()).length())
-        .sum();
-    let shares = speed_ratios(last.scene.motion.slide_roll);
-    [0, 1].map(|body: usize| goal[body] - own[body] - settling * shares[body])
+    SettlingSteps::of_climb(walk, length, plan.usual_dt())
 }

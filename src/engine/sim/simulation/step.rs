@@ -59,6 +59,10 @@ pub(super) fn step(
         }
     }
     state.start_up_steps.0 += 1;
+    // At once, and not with the next step: a finer mesh goes on from t = 0.
+    if let Phase::Develop { left: 0 } | Phase::Settle { long: 0, usual: 0 } = state.phase {
+        begin_passage(plan, state);
+    }
     Ok(())
 }
 
