@@ -50,6 +50,38 @@ fn the_first_mesh_knows_what_the_oil_does_to_the_life() {
     }
 }
 
+/// The life of the scene's own choice is the run's on its first mesh: made once more it is the same to the last bit, at S = 0
+/// with its phases, too.
+#[test]
+fn the_own_life_of_a_range_is_that_of_the_run() {
+    for (kind, preset, sets) in [
+        (
+            Assumed::OilLaw,
+            "demonstration_quick",
+            &["grid.nodes=129"][..],
+        ),
+        (Assumed::OilLaw, "twin_disc", &["grid.nodes=129"]),
+        (Assumed::Phase, "fzg_pitch_point", &["grid.nodes=129"]),
+    ] {
+        let own = scene(
+            preset,
+            &[sets, &["record=none", "stress.depths=8"]].concat(),
+        );
+        let plan = Plan::new(&own).unwrap();
+        let mut summary = run(&own, &plan);
+        let stop = AtomicBool::new(false);
+        assert!(summary.rungs.len() > 1, "{preset}");
+        let mut made = summary.clone();
+        made.rungs.clear();
+        let range = kind.vary(&own, &plan, 2, &mut summary, &stop).unwrap();
+        assert_eq!(
+            kind.vary(&own, &plan, 2, &mut made, &stop),
+            Some(range),
+            "{preset}"
+        );
+    }
+}
+
 #[test]
 fn a_life_that_hangs_on_no_law_has_no_range() {
     for sets in [

@@ -83,6 +83,7 @@ const CASES: [(&str, &[&str]); 9] = [
         "demonstration_quick",
         &[
             "grid.nodes=257",
+            "life=none",
             "stress=none",
             "body_2.surface.phase_deg=90",
         ],

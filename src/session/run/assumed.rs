@@ -14,10 +14,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::crew::share_out;
-use super::ladder::Ladder;
+use super::ladder::{Ladder, Mesh};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{EyringFlow, Lubricant, Rheology, Scene, Surface};
-use asperity_engine::sim::{CautionCode, Simulation, Summary};
+use asperity_engine::sim::{CautionCode, Rung, Summary};
 
 /// Phases of body 1 beside the scene's, degrees.
 const PHASES: [f64; 7] = [45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0];
@@ -102,11 +102,25 @@ impl Assumed {
             return None;
         }
         let ladder = Ladder::of(scene, plan);
-        let mut scenes = vec![(*ladder.meshes()[0].scene).clone(); self.count()];
+        let first = &ladder.meshes()[0];
+        // A run that has climbed knows the life of its own choice on that mesh.
+        let of_first = |rung: &&Rung| rung.nodes == first.plan.domain.nodes;
+        let own = summary.rungs.iter().find(of_first);
+        let own = own
+            .filter(|_| ladder.climbs())
+            .map(|rung| rung.life_relative);
+        let mut scenes = vec![(*first.scene).clone(); self.count()];
         for (k, scene) in scenes.iter_mut().enumerate() {
             self.choose(k, scene);
         }
-        let lives = share_out(&scenes, threads, |scene| life(scene, stop), &mut |_, _| {});
+        let others = &scenes[usize::from(own.is_some())..];
+        let made = share_out(
+            others,
+            threads,
+            |scene| life(&ladder, scene, stop),
+            &mut |_, _| {},
+        );
+        let lives: Vec<_> = own.into_iter().chain(made).collect();
         let range = AssumedRange::of(&lives)?;
         let life = summary.life_relative?;
         let [low, high] = range.of_life(life).map(Some);
@@ -186,10 +200,14 @@ fn twice(oil: &mut Lubricant) {
     oil.eyring_stress_pa *= 2.0;
 }
 
-/// That of a run which ends once it has settled, as on the lower meshes of a ladder. `None`: it does not get through, or somebody said
-/// stop.
-fn life(scene: &Scene, stop: &AtomicBool) -> Option<f64> {
-    let mut sim = Simulation::new(scene, Plan::new(scene).ok()?, 1).ok()?;
+/// That of a run which begins and ends as one of the `ladder` does on its first mesh. `None`: it does not get through, or somebody
+/// said stop.
+fn life(ladder: &Ladder, scene: &Scene, stop: &AtomicBool) -> Option<f64> {
+    let mesh = Mesh {
+        scene: Arc::new(scene.clone()),
+        plan: Plan::new(scene).ok()?,
+    };
+    let mut sim = ladder.simulation(&mesh, None, 1).ok()?;
     while !sim.is_done() && !sim.has_settled() {
         sim.step().ok()?;
         if stop.load(Ordering::Relaxed) {

@@ -15,7 +15,7 @@
 //! The passage of the last rung begins with both surfaces where the scene says they are at t = 0: the first rung is held back
 //! by what the settling of the others takes ([`climb_distances`]).
 
-use super::follow::{SettlingSteps, USUAL};
+use super::follow::SettlingSteps;
 use super::present::conditions;
 use super::watching::{publish, see_again};
 use crate::math::grid::refined_nodes;
@@ -33,6 +33,9 @@ use crate::sim::stepping::Attempted;
 use crate::sim::work::Work;
 use crate::sim::{Knob, SimError, State};
 use crate::solve::march::ContactState;
+
+/// Distance at U, in a, in which what the interpolation disturbed leaves the inner contact.
+const FLUSH: f64 = 1.1;
 
 /// Starts from `lower`, a run of the same scene on half the intervals.
 ///
@@ -169,7 +172,7 @@ pub fn climb_distances(rungs: &[(&Scene, &Plan)]) -> [f64; 2] {
 fn settling(plan: &SimPlan, walk: f64) -> SettlingSteps {
     let length = match plan.decided.time_dependence {
         TimeDependence::Steady { .. } => plan.develop(),
-        TimeDependence::Transient => USUAL,
+        TimeDependence::Transient => FLUSH,
     };
-    SettlingSteps::of_climb(walk, length, plan.usual_dt())
+    SettlingSteps::new(walk, length, plan.usual_dt())
 }

@@ -14,8 +14,7 @@ use asperity_engine::sim::{CATALOGUE, Frame, Quantity, Reading};
 pub enum LessonFigure {
     /// A scalar that every output has.
     Of(&'static Quantity),
-    /// Part of the roughness that is left in the film: root mean square along y = 0 within half the contact, ridges in,
-    /// film out.
+    /// Part of the roughness that is left in the film: amplitudes along y = 0 within half the contact, ridges in, film out.
     RippleLeft,
     /// Relative life by the paper's count: every crest a whole cycle.
     LifeByContacts,
@@ -120,31 +119,51 @@ impl LessonFigure {
     }
 }
 
-/// Ripple of the film over that of the roughness on y = 0, |x| < a/2. Straight lines are taken out.
+/// Amplitude of the film's waves over that of the roughness' on y = 0, |x| < a/2, whatever crest is where: least squares of
+/// `h = c + d x + β z + γ z'`, √(β² + γ² rms(z')²/rms(z)²) with both root mean squares along the whole line.
 fn ripple_left(frame: &Frame) -> Option<f64> {
     let row = frame.ny / 2 * frame.nx;
     let inside = |i: &usize| (frame.x_min_m + *i as f64 * frame.dx_m).abs() < 0.5 * frame.a_m;
-    let places: Vec<usize> = (0..frame.nx).filter(inside).map(|i| row + i).collect();
-    let ripple = |value: &dyn Fn(usize) -> f64| {
-        let n = places.len() as f64;
-        let middle = 0.5 * (n - 1.0);
-        let (mut sum, mut slope, mut squares) = (0.0, 0.0, 0.0);
-        for (k, &place) in places.iter().enumerate() {
-            sum += value(place);
-            slope += (k as f64 - middle) * value(place);
-            squares += (k as f64 - middle).powi(2);
-        }
-        let rest = places.iter().enumerate().map(|(k, &place)| {
-            (value(place) - sum / n - slope / squares * (k as f64 - middle)).powi(2)
-        });
-        (rest.sum::<f64>() / n).sqrt()
-    };
+    let places: Vec<usize> = (1..frame.nx.saturating_sub(1)).filter(inside).collect();
     if places.len() < 8 || frame.film_m.len() < frame.nx * frame.ny {
         return None;
     }
-    let rough = ripple(&|i| f64::from(frame.roughness_1_m[i]) + f64::from(frame.roughness_2_m[i]));
-    let film = ripple(&|i| f64::from(frame.film_m[i]));
-    (rough > 0.0).then(|| film / rough)
+    let along = |value: &dyn Fn(usize) -> f32| -> Vec<f64> {
+        (row..row + frame.nx).map(|i| f64::from(value(i))).collect()
+    };
+    let film = along(&|i| frame.film_m[i]);
+    let rough = along(&|i| frame.roughness_1_m[i] + frame.roughness_2_m[i]);
+    let slope: Vec<f64> = rough.windows(3).map(|z| z[2] - z[0]).collect();
+    let squares = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64;
+    let [h, z, z1] = [
+        without_line(places.iter().map(|&i| film[i])),
+        without_line(places.iter().map(|&i| rough[i])),
+        without_line(places.iter().map(|&i| slope[i - 1])),
+    ];
+    let dot = |one: &[f64], two: &[f64]| one.iter().zip(two).map(|(a, b)| a * b).sum::<f64>();
+    let (zz, zs, ss) = (dot(&z, &z), dot(&z, &z1), dot(&z1, &z1));
+    let (hz, hs) = (dot(&h, &z), dot(&h, &z1));
+    let all = zz * ss - zs * zs;
+    let (in_phase, across) = ((hz * ss - hs * zs) / all, (hs * zz - hz * zs) / all);
+    let left = in_phase.powi(2) + across.powi(2) * squares(&slope) / squares(&rough);
+    (all > 0.0).then(|| left.sqrt())
+}
+
+/// What is left of values at equal distances without their mean and their slope.
+fn without_line(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    let n = values.len() as f64;
+    let from_middle = |k: usize| k as f64 - 0.5 * (n - 1.0);
+    let (mut sum, mut slope, mut squares) = (0.0, 0.0, 0.0);
+    for (k, value) in values.iter().enumerate() {
+        sum += value;
+        slope += from_middle(k) * value;
+        squares += from_middle(k).powi(2);
+    }
+    for (k, value) in values.iter_mut().enumerate() {
+        *value -= sum / n + slope / squares * from_middle(k);
+    }
+    values
 }
 
 /// What a number is compared with.
