@@ -120,50 +120,44 @@ impl LessonFigure {
 }
 
 /// Amplitude of the film's waves over that of the roughness' on y = 0, |x| < a/2, whatever crest is where: least squares of
-/// `h = c + d x + β z + γ z'`, √(β² + γ² rms(z')²/rms(z)²) with both root mean squares along the whole line.
+/// `h = c + d x + β z + γ z'` by Gram and Schmidt, √(β² + γ² Σ z'²/Σ z²) with both sums along the whole line.
 fn ripple_left(frame: &Frame) -> Option<f64> {
     let row = frame.ny / 2 * frame.nx;
-    let inside = |i: &usize| (frame.x_min_m + *i as f64 * frame.dx_m).abs() < 0.5 * frame.a_m;
-    let places: Vec<usize> = (1..frame.nx.saturating_sub(1)).filter(inside).collect();
-    if places.len() < 8 || frame.film_m.len() < frame.nx * frame.ny {
+    let rough = |i: usize| f64::from(frame.roughness_1_m[i] + frame.roughness_2_m[i]);
+    if frame.film_m.len() < row + frame.nx || frame.nx < 3 {
         return None;
     }
-    let along = |value: &dyn Fn(usize) -> f32| -> Vec<f64> {
-        (row..row + frame.nx).map(|i| f64::from(value(i))).collect()
-    };
-    let film = along(&|i| frame.film_m[i]);
-    let rough = along(&|i| frame.roughness_1_m[i] + frame.roughness_2_m[i]);
-    let slope: Vec<f64> = rough.windows(3).map(|z| z[2] - z[0]).collect();
-    let squares = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64;
-    let [h, z, z1] = [
-        without_line(places.iter().map(|&i| film[i])),
-        without_line(places.iter().map(|&i| rough[i])),
-        without_line(places.iter().map(|&i| slope[i - 1])),
-    ];
-    let dot = |one: &[f64], two: &[f64]| one.iter().zip(two).map(|(a, b)| a * b).sum::<f64>();
-    let (zz, zs, ss) = (dot(&z, &z), dot(&z, &z1), dot(&z1, &z1));
-    let (hz, hs) = (dot(&h, &z), dot(&h, &z1));
-    let all = zz * ss - zs * zs;
-    let (in_phase, across) = ((hz * ss - hs * zs) / all, (hs * zz - hz * zs) / all);
-    let left = in_phase.powi(2) + across.powi(2) * squares(&slope) / squares(&rough);
-    (all > 0.0).then(|| left.sqrt())
-}
-
-/// What is left of values at equal distances without their mean and their slope.
-fn without_line(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut values: Vec<f64> = values.collect();
-    let n = values.len() as f64;
-    let from_middle = |k: usize| k as f64 - 0.5 * (n - 1.0);
-    let (mut sum, mut slope, mut squares) = (0.0, 0.0, 0.0);
-    for (k, value) in values.iter().enumerate() {
-        sum += value;
-        slope += from_middle(k) * value;
-        squares += from_middle(k).powi(2);
+    let mut columns: [Vec<f64>; 5] = Default::default();
+    let (mut heights, mut slopes) = (0.0, 0.0);
+    for i in 1..frame.nx - 1 {
+        let (z, slope) = (rough(row + i), rough(row + i + 1) - rough(row + i - 1));
+        heights += z * z;
+        slopes += slope * slope;
+        let x = frame.x_min_m + i as f64 * frame.dx_m;
+        if x.abs() < 0.5 * frame.a_m {
+            let values = [1.0, x, z, slope, f64::from(frame.film_m[row + i])];
+            columns
+                .iter_mut()
+                .zip(values)
+                .for_each(|(column, value)| column.push(value));
+        }
     }
-    for (k, value) in values.iter_mut().enumerate() {
-        *value -= sum / n + slope / squares * from_middle(k);
+    let mut parts = [[0.0; 5]; 5];
+    for k in 0..5 {
+        let (done, own) = columns.split_at_mut(k);
+        for (column, part) in done.iter().zip(&mut parts[k]) {
+            let dot = |other: &[f64]| column.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+            *part = dot(&own[0]) / dot(column);
+            own[0]
+                .iter_mut()
+                .zip(column)
+                .for_each(|(own, other)| *own -= *part * other);
+        }
     }
-    values
+    let across = parts[4][3];
+    let in_phase = parts[4][2] - across * parts[3][2];
+    let left = (in_phase.powi(2) + across.powi(2) * slopes / heights).sqrt();
+    (columns[0].len() >= 8 && left.is_finite()).then_some(left)
 }
 
 /// What a number is compared with.
