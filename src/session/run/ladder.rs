@@ -131,7 +131,7 @@ impl Ladder {
         match lower {
             Some(lower) => sim.climb(lower)?,
             None if nodes == self.meshes[0].plan.domain.nodes => {
-                sim.hold_back(self.climb_distances)
+                sim.hold_back(self.climb_distances);
             }
             None => {}
         }

@@ -143,9 +143,9 @@ fn ripple_left(frame: &Frame) -> Option<f64> {
         }
     }
     let mut parts = [[0.0; 5]; 5];
-    for k in 0..5 {
+    for (k, parts) in parts.iter_mut().enumerate() {
         let (done, own) = columns.split_at_mut(k);
-        for (column, part) in done.iter().zip(&mut parts[k]) {
+        for (column, part) in done.iter().zip(parts) {
             let dot = |other: &[f64]| column.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
             *part = dot(&own[0]) / dot(column);
             own[0]
