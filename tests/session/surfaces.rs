@@ -2,35 +2,14 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
-use asperity_engine::observe::{ObserveError, Observer, ObserverReport, RunContext, RunEvent};
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{Scene, Surface};
 use asperity_engine::sim::{Frame, Simulation};
-use asperity_session::run::{Ending, Ladder, Request, Session, Watcher};
+use asperity_session::run::{Ending, Ladder, Request, Session};
 
 use crate::phases::scene;
-
-/// The last frame that a run showed.
-#[derive(Debug, Default, Clone)]
-struct Last(Arc<Mutex<Arc<Frame>>>);
-
-impl Observer for Last {
-    fn begin(&mut self, _: &RunContext) -> Result<(), ObserveError> {
-        Ok(())
-    }
-    fn event(&mut self, _: &RunEvent) -> Result<(), ObserveError> {
-        Ok(())
-    }
-    fn frame(&mut self, frame: &Arc<Frame>) -> Result<(), ObserveError> {
-        *self.0.lock().unwrap() = Arc::clone(frame);
-        Ok(())
-    }
-    fn finish(&mut self) -> Result<ObserverReport, ObserveError> {
-        Ok(ObserverReport::default())
-    }
-}
 
 /// Greatest distance of a frame's heights on y = 0 from the scene's waves, over their amplitudes.
 fn off(scene: &Scene, frame: &Frame) -> f64 {
@@ -104,17 +83,18 @@ fn surfaces_stand_where_the_scene_says() {
         let scene = scene(preset, &[sets, &more].concat());
         let plan = Plan::new(&scene).unwrap();
         let meshes = Ladder::of(&scene, &plan).meshes().len();
-        let last = Last::default();
         let request = Request {
             name: String::new(),
             scene: Arc::clone(&scene),
             plan,
             threads: 2,
-            watchers: vec![Watcher::new("last", Box::new(last.clone()), 1)],
+            watchers: Vec::new(),
             ending: Ending::Passages,
         };
-        Session::start(request).unwrap().join().unwrap();
-        let frame = Arc::clone(&last.0.lock().unwrap());
+        let session = Session::start(request).unwrap();
+        let frames = session.handle.latest();
+        session.join().unwrap();
+        let frame = frames.take().unwrap();
         assert!(frame.time_s > 0.0, "{preset} {sets:?}");
         let off = off(&scene, &frame);
         println!("{preset} {sets:?}, {meshes} meshes: {off:.1e} of the amplitude");
