@@ -235,7 +235,7 @@ fn vary_what_nobody_knows(
         if what.moves(scene, plan) {
             tell(match what {
                 Assumed::Phase => {
-                    "S = 0 and no phase is asked for: eight runs on the first mesh for the band"
+                    "crests of both bodies do not meet in all ways: eight runs on the first mesh for the band"
                 }
                 Assumed::OilLaw => {
                     "the oil is sheared: four runs on the first mesh for the range over its laws"

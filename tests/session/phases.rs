@@ -94,6 +94,41 @@ fn the_band_of_rolling_holds_every_phase() {
     }
 }
 
+/// Where crests hardly shift while a run lasts, its life is that of how they stood; a run that comes through all ways has another, which
+/// the band holds, whatever phase is asked for.
+#[test]
+fn the_band_of_slow_sliding_holds_the_life_of_a_long_run() {
+    let sets = [
+        "grid.nodes=65",
+        "stress.depths=16",
+        "record=none",
+        "motion.slide_roll=0.02",
+    ];
+    let preset = "demonstration_quick";
+    let own = scene(preset, &sets);
+    let plan = Plan::new(&own).unwrap();
+    // 8 a at waves of .425 a.
+    let meetings = plan.meetings(0.02, plan.length_a).unwrap();
+    let waves = 0.02 * 8.0 * plan.hertz.a_m / 2e-4;
+    assert!((meetings / waves - 1.0).abs() < 1e-9 && meetings < 1.0);
+    let mut summary = run(&own, &plan);
+    let band = |summary: &Summary| {
+        let [low, high] =
+            [summary.life_relative_low, summary.life_relative_high].map(Option::unwrap);
+        low..=high
+    };
+    let before = band(&summary);
+    over_phases(&own, &plan, &mut summary, false).unwrap();
+    let long = cold(preset, &sets, "time.passages=12");
+    let (life, after) = (summary.life_relative, band(&summary));
+    println!("life {life:.3?}, band {before:.3?}, over phases {after:.3?}; 12 passages {long:.3}");
+    assert!(after.contains(&long) && !before.contains(&long));
+    assert!(!Assumed::Phase.moves(
+        &own,
+        &Plan::new(&scene(preset, &[&sets[..], &["time.passages=12"]].concat())).unwrap()
+    ));
+}
+
 #[test]
 fn a_phase_that_is_asked_for_and_surfaces_that_slide_have_no_other() {
     for sets in [

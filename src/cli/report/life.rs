@@ -85,7 +85,7 @@ fn add_models(lines: &mut Lines, s: &Summary) {
             "phases",
             s.life_phases_low,
             s.life_phases_high,
-            "as the crests of both bodies happen to meet, of which nothing is asked (phase_deg); the band holds it",
+            "as the crests of both bodies happen to meet (phase_deg); the band holds it",
         ),
         (
             "oil law",

@@ -2,8 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{PlanError, Warning};
+use super::{Plan, PlanError, Warning};
 use crate::math::number::{apart, fixed};
+use crate::physics::cycles::speed_ratios;
 use crate::physics::felt::felt;
 use crate::scene::{Doubt, Scene, Surface};
 
@@ -59,6 +60,19 @@ pub(super) fn doubts(scene: &Scene, half_width_m: f64) -> impl Iterator<Item = W
     };
     let [one, two] = scene.surfaces();
     of(one, 1).into_iter().chain(of(two, 2))
+}
+
+impl Plan {
+    /// How far the waves of both bodies shift against each other over a distance of `length` (in a, at U) and along the
+    /// contact, in waves: `|f_1 (1 − S/2) − f_2 (1 + S/2)| L + 2a |f_1 − f_2|`; from 1 on crests have met in all ways. `None`: a body
+    /// has none along x. Ours: two waves beat.
+    pub fn meetings(&self, slide_roll: f64, length: f64) -> Option<f64> {
+        let [one, two] = self.waves.map(|wave| wave.map(|wave| wave.crests_per_m));
+        let (one, two) = one.zip(two).filter(|(one, two)| *one > 0.0 && *two > 0.0)?;
+        let [slower, faster] = speed_ratios(slide_roll);
+        let passing = (one * slower - two * faster).abs() * length;
+        Some((passing + 2.0 * (one - two).abs()) * self.hertz.a_m)
+    }
 }
 
 /// Fewest nodes of a wave: below it the sampled wave is not the one that was asked for.

@@ -16,7 +16,7 @@
 //! crests_not_felt  crests that press less than a thousandth of Hertz's pressure, or of which material points count less than
 //!                  a tenth, of a count above 1
 //! no_reference   the smooth contact below the fatigue limit
-//! phase_locked   S = 0 between two rough bodies
+//! phase_locked   S = 0 between two rough bodies, or so little that crests do not meet in all ways
 //! model_range    greatest over least life of the choices > 2
 //! above_smooth   the whole band of life above 1.01
 //! ```
@@ -482,10 +482,22 @@ fn no_reference(grounds: &Grounds) -> Option<String> {
 /// Crest on crest or crest on valley: which, is chance in a machine and the scene's choice here.
 fn phase_locked(m: &Metrics, grounds: &Grounds) -> Option<String> {
     let both_rough = m.amplitude_1_m > 0.0 && m.amplitude_2_m > 0.0;
-    (grounds.has_life && both_rough && m.slide_roll == 0.0).then(|| {
-        "S = 0: the same crests meet all the way, and this life is that of the one phase at which they do (phase_deg of a \
-         surface); it is another at another phase"
-            .to_owned()
+    if !(grounds.has_life && both_rough) {
+        return None;
+    }
+    if m.slide_roll == 0.0 {
+        return Some(
+            "S = 0: the same crests meet all the way, and this life is that of the one phase at which they do (phase_deg of a \
+             surface); it is another at another phase"
+                .to_owned(),
+        );
+    }
+    grounds.meetings.filter(|waves| *waves < 1.0).map(|waves| {
+        format!(
+            "S is so small that crests of both bodies shift by {} of a wave in all: the life hangs on where they began \
+             (phase_deg of a surface); a longer run meets all ways",
+            sig(waves, 2)
+        )
     })
 }
 
@@ -603,7 +615,7 @@ mod tests {
             NoReference, NotConverged, NotSettled, OilLaw, PhaseLocked, ShortDomain, StandingBody,
             StillYielding, StrengthUnknown,
         };
-        let table: [(CautionCode, &str, Spoil); 19] = [
+        let table: [(CautionCode, &str, Spoil); 20] = [
             (NotConverged, "3 of 100", |_, g| g.steps_not_converged = 3),
             (BeyondYield, "13 GPa", |_, g| g.p_max_greatest_pa = 13e9),
             (BeyondYield, "7.50 GPa", |_, g| {
@@ -642,6 +654,10 @@ mod tests {
             }),
             (PhaseLocked, "phase_deg", |m, _| {
                 (m.amplitude_1_m, m.amplitude_2_m, m.slide_roll) = (2e-7, 1e-7, 0.0);
+            }),
+            (PhaseLocked, "0.38 of a wave", |m, g| {
+                (m.amplitude_1_m, m.amplitude_2_m, m.slide_roll) = (2e-7, 1e-7, 0.02);
+                g.meetings = Some(0.38);
             }),
             (ModelRange, "factor of 28", |m, _| {
                 let detail = LifeDetail {

@@ -76,6 +76,8 @@ pub struct Grounds {
     pub yielded_last_share: Option<f64>,
     /// The narrower half-width of the contact at the load of now, m.
     pub half_width_m: f64,
+    /// In how many waves crests of both bodies have met so far ([`crate::plan::Plan::meetings`]); `None`: of a body none do.
+    pub meetings: Option<f64>,
     /// Shortest waves of the made surfaces of body 1 and 2, m; `None`: it is not made.
     pub cutoffs_m: [Option<f64>; 2],
     /// What is doubtful of the maps of body 1 and 2.

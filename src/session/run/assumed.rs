@@ -6,8 +6,9 @@
 //! range = life · min(1, r) … life · max(1, r)
 //! band over phases = life_low · min(1, r)/ε … life_high · max(1, r)·ε     ε: what this mesh is off at the scene's own
 //! ```
-//! Phases: of body 1, k·45 degrees; only where the scene asks for none: both `phase_deg` are 0. Who wants crest on crest writes
-//! 360. Laws of the oil: the other law of flow, half and twice the Eyring stress. A factor of two either way is an assumption:
+//! Phases: of body 1, k·45 degrees more; at S = 0 only where the scene asks for none: both `phase_deg` are 0. Who wants crest on
+//! crest writes 360. Where S is so small that crests do not meet in all ways while the run lasts, whatever is asked for: a longer run
+//! would come through all of them. Laws of the oil: the other law of flow, half and twice the Eyring stress. A factor of two either way is an assumption:
 //! mineral oils are given 2 to 10 MPa.
 
 use std::sync::Arc;
@@ -27,7 +28,7 @@ const LAWS: [fn(&mut Lubricant); 3] = [other_flow, half, twice];
 /// A choice that a scene must make and nobody can.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Assumed {
-    /// Where the crests of one body stand to those of the other, at S = 0.
+    /// Where the crests of one body stand to those of the other, at S = 0 and where they hardly shift.
     Phase,
     /// How sheared oil flows.
     OilLaw,
@@ -44,7 +45,12 @@ impl Assumed {
         let has_one_life = scene.age.is_none() && scene.life.is_some() && scene.events.is_empty();
         has_one_life
             && match self {
-                Self::Phase => rolls && scene.surfaces().into_iter().all(has_open_phase),
+                Self::Phase if rolls => scene.surfaces().into_iter().all(has_open_phase),
+                Self::Phase => {
+                    let waves = plan.meetings(scene.motion.slide_roll, plan.length_a);
+                    waves.is_some_and(|waves| waves < 1.0)
+                        && scene.surfaces().into_iter().all(has_waves)
+                }
                 Self::OilLaw => {
                     let oil = scene.lubricant.as_ref();
                     !rolls
@@ -77,7 +83,7 @@ impl Assumed {
         match self {
             Self::Phase => {
                 if let Surface::Sinusoid { phase_deg, .. } = &mut scene.body_1.surface {
-                    *phase_deg = PHASES[k];
+                    *phase_deg = (*phase_deg + PHASES[k]) % 360.0;
                 }
             }
             Self::OilLaw => {
@@ -175,12 +181,12 @@ impl AssumedRange {
 }
 
 fn has_open_phase(surface: &Surface) -> bool {
+    has_waves(surface) && matches!(surface, Surface::Sinusoid { phase_deg: 0.0, .. })
+}
+
+fn has_waves(surface: &Surface) -> bool {
     match surface {
-        Surface::Sinusoid {
-            amplitude_m,
-            phase_deg,
-            ..
-        } => *amplitude_m > 0.0 && *phase_deg == 0.0 && surface.varies_along_x(),
+        Surface::Sinusoid { amplitude_m, .. } => *amplitude_m > 0.0 && surface.varies_along_x(),
         Surface::Smooth {} | Surface::Random(_) | Surface::HeightMap { .. } => false,
     }
 }

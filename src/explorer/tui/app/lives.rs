@@ -27,7 +27,7 @@ impl App {
             if let Some((what, [low, high])) = self.life_over(caution) {
                 let over = match what {
                     Assumed::Phase => {
-                        "as the crests of both bodies happen to meet, of which nothing is asked (phase_deg); the band holds it"
+                        "as the crests of both bodies happen to meet (phase_deg); the band holds it"
                     }
                     Assumed::OilLaw => {
                         "with the other law of flow of sheared oil (lubricant.eyring_flow), half and twice its Eyring stress"
