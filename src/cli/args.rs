@@ -14,6 +14,7 @@ use asperity_picture::export::Format;
 use asperity_session::sweep::{ChainList, Shard};
 use clap::{Args, Parser, Subcommand};
 
+use self::recordings::export_formats;
 pub(crate) use self::recordings::{BesideValues, CompareArgs, CompareBy, ExportArgs};
 
 pub(crate) use self::study::{StudyArgs, StudyKind};
@@ -301,7 +302,7 @@ pub(crate) struct RunArgs {
     #[arg(
         long,
         value_name = "FORMATS",
-        value_enum,
+        value_parser = export_formats(),
         value_delimiter = ',',
         default_value = "npz",
         requires = "export"

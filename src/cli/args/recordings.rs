@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use asperity_picture::export::Format;
 use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 /// What to put side by side.
 #[derive(Debug, Args)]
@@ -31,6 +32,16 @@ pub(crate) enum CompareBy {
     Place,
 }
 
+/// The formats of exports by their words.
+pub(super) fn export_formats() -> impl TypedValueParser<Value = Format> {
+    let words = Format::ALL.map(|(_, word, says)| PossibleValue::new(word).help(says));
+    PossibleValuesParser::new(words).try_map(|chosen| {
+        let mut all = Format::ALL.into_iter();
+        let found = all.find(|(_, word, _)| *word == chosen);
+        found.map(|(format, ..)| format).ok_or("no format")
+    })
+}
+
 /// What to make of a recording.
 #[derive(Debug, Args)]
 pub(crate) struct ExportArgs {
@@ -41,7 +52,7 @@ pub(crate) struct ExportArgs {
     #[arg(
         long = "as",
         value_name = "FORMATS",
-        value_enum,
+        value_parser = export_formats(),
         value_delimiter = ',',
         default_value = "gif"
     )]

@@ -28,8 +28,6 @@ use std::io::{BufWriter, Error};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use clap::ValueEnum as _;
-
 use self::animation::Animation;
 use self::fields::write_npz;
 use self::pages::{Page, Pictures, SheetKind};
@@ -42,24 +40,24 @@ use asperity_engine::observe::{
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{Frame, Stage};
 
-/// What is written of a step; the words are the command line's.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+/// What is written of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Fields as numpy archives
+    /// NumPy's archives.
     Npz,
-    /// Fields of all steps in one numpy archive, with a time axis
+    /// One of them for all steps.
     NpzSeries,
-    /// Fields for ParaView, and what else reads VTK
+    /// VTK's image data.
     Vti,
-    /// Maps and centre line as pictures
+    /// Pictures in pixels.
     Png,
-    /// The same as papers print them: sized in mm, axes and text as vectors, no title
+    /// Pictures in vectors.
     Svg,
-    /// The same as PDF
+    /// The same on pages.
     Pdf,
-    /// All steps one after another
+    /// Pictures that move.
     Gif,
-    /// Every scalar of every step (of a recording; a run has --table)
+    /// A table.
     Csv,
 }
 
@@ -79,6 +77,34 @@ enum FormatKind {
 }
 
 impl Format {
+    /// All of them, with the words that choose them and what they say for themselves.
+    pub const ALL: [(Self, &'static str, &'static str); 8] = [
+        (Self::Npz, "npz", "Fields as numpy archives"),
+        (
+            Self::NpzSeries,
+            "npz-series",
+            "Fields of all steps in one numpy archive, with a time axis",
+        ),
+        (
+            Self::Vti,
+            "vti",
+            "Fields for ParaView, and what else reads VTK",
+        ),
+        (Self::Png, "png", "Maps and centre line as pictures"),
+        (
+            Self::Svg,
+            "svg",
+            "The same as papers print them: sized in mm, axes and text as vectors, no title",
+        ),
+        (Self::Pdf, "pdf", "The same as PDF"),
+        (Self::Gif, "gif", "All steps one after another"),
+        (
+            Self::Csv,
+            "csv",
+            "Every scalar of every step (of a recording; a run has --table)",
+        ),
+    ];
+
     fn ending(self) -> &'static str {
         match self {
             Self::Npz | Self::NpzSeries => "npz",
@@ -517,7 +543,7 @@ fn is_moving(name: &str) -> bool {
 
 /// Whether a picture has that name, and a format of that kind that ending.
 fn is_named(name: &str, ending: &str, kind: FormatKind) -> bool {
-    let formats = Format::value_variants().iter();
+    let formats = Format::ALL.into_iter().map(|(format, ..)| format);
     let mut of_kind = formats.filter(|format| format.kind() == kind);
     of_kind.any(|format| format.ending() == ending) && Pictures::names().any(|own| own == name)
 }
