@@ -492,9 +492,10 @@ fn phase_locked(m: &Metrics, grounds: &Grounds) -> Option<String> {
                 .to_owned(),
         );
     }
-    grounds.meetings.filter(|waves| *waves < 1.0).map(|waves| {
+    let met = grounds.meetings.filter(|_| m.life.is_some());
+    met.filter(|waves| *waves < 1.0).map(|waves| {
         format!(
-            "S is so small that crests of both bodies shift by {} of a wave in all: the life hangs on where they began \
+            "S is so small that crests of both bodies have shifted by {} of a wave: the life hangs on where they began \
              (phase_deg of a surface); a longer run meets all ways",
             sig(waves, 2)
         )

@@ -97,10 +97,7 @@ pub(super) fn grounds(plan: &SimPlan, state: &State) -> Grounds {
             .map(|film| domain.seen_by(size).edge_error(&film.truncation())),
         crests_at_edge_m: crests_at_edge_m(plan, &state.metrics, size),
         map_seen_m: map_seen_m(plan, state),
-        meetings: plan.decided.meetings(
-            state.drive.get(Knob::SlideRoll).now,
-            state.distance.max(plan.decided.length_a),
-        ),
+        meetings: (plan.decided).meetings(state.drive.get(Knob::SlideRoll).now, state.distance),
         ..plan.grounds
     };
     state.totals.ground(&mut grounds);
