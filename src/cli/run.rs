@@ -235,10 +235,10 @@ fn vary_what_nobody_knows(
         if what.moves(scene, plan) {
             tell(match what {
                 Assumed::Phase => {
-                    "crests of both bodies do not meet in all ways: eight runs on the first mesh for the band"
+                    "crests of both bodies do not meet in all ways: seven more phases on the first mesh, for the band"
                 }
                 Assumed::OilLaw => {
-                    "the oil is sheared: four runs on the first mesh for the range over its laws"
+                    "the oil is sheared: three other laws on the first mesh, for the range of the life"
                 }
             });
             what.vary(scene, plan, threads, summary, interrupt);

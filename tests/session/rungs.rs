@@ -12,6 +12,7 @@ use asperity_session::run::{
     Checkpoint, Command, Companion, End, Ending, HandTurn, Ladder, Outcome, Request, Session,
     Settled, Watcher,
 };
+use asperity_session::sweep::{Along, Background, CurveOrder, Ground, Varied};
 
 fn scene(preset: &str, sets: &[&str]) -> Arc<Scene> {
     let sets = sets.iter().chain(&["record=none"]);
@@ -469,6 +470,7 @@ fn times_to_the_first_life_to_the_last_mesh_and_after_turns() {
         "last mesh settled",
         seconds_to(&session, began, |settled| settled.is_last),
     );
+    curve(&scene, &session, &told);
     let turns: [(Knob, f64, Reading); 4] = [
         (Knob::SlideRoll, 0.8, |m| m.slide_roll),
         (Knob::ForceN, 1000.0, |m| m.load_n),
@@ -487,4 +489,29 @@ fn times_to_the_first_life_to_the_last_mesh_and_after_turns() {
     }
     session.handle.send(Command::Stop);
     session.join().unwrap();
+}
+
+/// Eighteen more values of S on the first mesh, with what of them is there as time goes by.
+fn curve(scene: &Arc<Scene>, session: &Session, told: &dyn Fn(&str, f64)) {
+    let settled = session.handle.settled().unwrap();
+    let ground = Ground::of(scene, &settled).unwrap();
+    let values = (0..=18).map(|k| f64::from(k) / 9.0);
+    let values = values.filter(|s| (s - scene.motion.slide_roll).abs() > 1e-9);
+    let order = CurveOrder {
+        varied: Varied::Along(Along::SlideRoll),
+        values: values.collect(),
+        scene: (**scene).clone(),
+    };
+    let began = Instant::now();
+    let sweep = Background::start(ground, order, 2);
+    let mut found = 0;
+    while sweep.progress().is_some() {
+        std::thread::sleep(Duration::from_millis(1));
+        found += sweep.take().len();
+    }
+    found += sweep.take().len();
+    told(
+        &format!("{found} more values of S"),
+        began.elapsed().as_secs_f64(),
+    );
 }

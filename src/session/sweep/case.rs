@@ -121,8 +121,7 @@ impl Case {
         Some(running.end())
     }
 
-    /// At S = 0 a life is that of one phase between both bodies' waves: where none is asked for, its band holds all of them, as
-    /// that of a run alone does.
+    /// Where crests of both bodies do not meet in all ways, its band holds all of them, as that of a run alone does.
     pub(super) fn band_over_phases(
         &self,
         record: &mut CaseRecord,
@@ -189,8 +188,8 @@ fn fit_window(plan: &mut Plan) {
 pub(super) enum Until {
     /// After its passages.
     Passages,
-    /// Not before its life has settled, as the explorer's own has: after so many times its passages it has not
-    /// converged.
+    /// Once its life has settled, as the explorer's own does on a coarse mesh; without a period not before its passages. After so
+    /// many times these it has not converged.
     Settled(u64),
 }
 
@@ -199,7 +198,8 @@ impl Until {
         let Self::Settled(times) = self else {
             return sim.is_done();
         };
-        sim.is_done() && (has_settled(sim) || sim.passage_steps() >= times * steps)
+        let given_up = || sim.passage_steps() >= times * steps;
+        sim.has_settled() || (sim.is_done() && (has_settled(sim) || given_up()))
     }
 }
 
