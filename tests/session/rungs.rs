@@ -470,7 +470,10 @@ fn times_to_the_first_life_to_the_last_mesh_and_after_turns() {
         "last mesh settled",
         seconds_to(&session, began, |settled| settled.is_last),
     );
+    // The explorer pauses a run whose period it replays.
+    session.handle.send(Command::Pause);
     curve(&scene, &session, &told);
+    session.handle.send(Command::Pause);
     let turns: [(Knob, f64, Reading); 4] = [
         (Knob::SlideRoll, 0.8, |m| m.slide_roll),
         (Knob::ForceN, 1000.0, |m| m.load_n),
@@ -491,15 +494,17 @@ fn times_to_the_first_life_to_the_last_mesh_and_after_turns() {
     session.join().unwrap();
 }
 
-/// Eighteen more values of S on the first mesh, with what of them is there as time goes by.
+/// The other values of S that the explorer's curve visits, on the first mesh.
 fn curve(scene: &Arc<Scene>, session: &Session, told: &dyn Fn(&str, f64)) {
     let settled = session.handle.settled().unwrap();
     let ground = Ground::of(scene, &settled).unwrap();
-    let values = (0..=18).map(|k| f64::from(k) / 9.0);
-    let values = values.filter(|s| (s - scene.motion.slide_roll).abs() > 1e-9);
+    let values = [0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75];
+    let mut values: Vec<f64> = values.into_iter().flat_map(|s| [s, -s]).collect();
+    values.push(0.0);
+    values.retain(|s| *s != scene.motion.slide_roll);
     let order = CurveOrder {
         varied: Varied::Along(Along::SlideRoll),
-        values: values.collect(),
+        values,
         scene: (**scene).clone(),
     };
     let began = Instant::now();
