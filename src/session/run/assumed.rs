@@ -25,6 +25,9 @@ const PHASES: [f64; 7] = [45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0];
 /// Laws of the oil beside the scene's.
 const LAWS: [fn(&mut Lubricant); 3] = [other_flow, half, twice];
 
+/// What a run takes that may go on until its life has settled, in a: one that is asked to be shorter is short, its S not small.
+const USUAL_A: f64 = 8.0;
+
 /// A choice that a scene must make and nobody can.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Assumed {
@@ -47,7 +50,8 @@ impl Assumed {
             && match self {
                 Self::Phase if rolls => scene.surfaces().into_iter().all(has_open_phase),
                 Self::Phase => {
-                    let waves = plan.meetings(scene.motion.slide_roll, plan.length_a);
+                    let length = plan.length_a.max(USUAL_A);
+                    let waves = plan.meetings(scene.motion.slide_roll, length);
                     waves.is_some_and(|waves| waves < 1.0)
                         && scene.surfaces().into_iter().all(has_waves)
                 }
