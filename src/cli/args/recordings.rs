@@ -34,12 +34,9 @@ pub(crate) enum CompareBy {
 
 /// The formats of exports by their words.
 pub(super) fn export_formats() -> impl TypedValueParser<Value = Format> {
-    let words = Format::ALL.map(|(_, word, says)| PossibleValue::new(word).help(says));
-    PossibleValuesParser::new(words).try_map(|chosen| {
-        let mut all = Format::ALL.into_iter();
-        let found = all.find(|(_, word, _)| *word == chosen);
-        found.map(|(format, ..)| format).ok_or("no format")
-    })
+    let words = Format::ALL.map(|one| PossibleValue::new(one.key()).help(one.name()));
+    PossibleValuesParser::new(words)
+        .try_map(|chosen| Format::from_key(&chosen).ok_or("no format of an export"))
 }
 
 /// What to make of a recording.

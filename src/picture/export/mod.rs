@@ -9,6 +9,7 @@
 mod animation;
 mod centre_line;
 mod fields;
+mod format;
 mod history;
 mod map;
 mod npz;
@@ -30,6 +31,8 @@ use std::sync::Arc;
 
 use self::animation::Animation;
 use self::fields::write_npz;
+pub use self::format::Format;
+use self::format::FormatKind;
 use self::pages::{Page, Pictures, SheetKind};
 use self::series::Series;
 pub use self::sheet::PrintSize;
@@ -39,99 +42,6 @@ use asperity_engine::observe::{
 };
 use asperity_engine::scene::Scene;
 use asperity_engine::sim::{Frame, Stage};
-
-/// What is written of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// NumPy's archives.
-    Npz,
-    /// One of them for all steps.
-    NpzSeries,
-    /// VTK's image data.
-    Vti,
-    /// Pictures in pixels.
-    Png,
-    /// Pictures in vectors.
-    Svg,
-    /// The same on pages.
-    Pdf,
-    /// Pictures that move.
-    Gif,
-    /// A table.
-    Csv,
-}
-
-/// What becomes of steps in a format.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum FormatKind {
-    /// A file of arrays each.
-    Fields,
-    /// A file of arrays of all.
-    Series,
-    /// A file for each picture of each.
-    Pictures,
-    /// A file for each picture of all.
-    Moving,
-    /// Rows of a table, which this does not write.
-    Table,
-}
-
-impl Format {
-    /// All of them, with the words that choose them and what they say for themselves.
-    pub const ALL: [(Self, &'static str, &'static str); 8] = [
-        (Self::Npz, "npz", "Fields as numpy archives"),
-        (
-            Self::NpzSeries,
-            "npz-series",
-            "Fields of all steps in one numpy archive, with a time axis",
-        ),
-        (
-            Self::Vti,
-            "vti",
-            "Fields for ParaView, and what else reads VTK",
-        ),
-        (Self::Png, "png", "Maps and centre line as pictures"),
-        (
-            Self::Svg,
-            "svg",
-            "The same as papers print them: sized in mm, axes and text as vectors, no title",
-        ),
-        (Self::Pdf, "pdf", "The same as PDF"),
-        (Self::Gif, "gif", "All steps one after another"),
-        (
-            Self::Csv,
-            "csv",
-            "Every scalar of every step (of a recording; a run has --table)",
-        ),
-    ];
-
-    fn ending(self) -> &'static str {
-        match self {
-            Self::Npz | Self::NpzSeries => "npz",
-            Self::Vti => "vti",
-            Self::Png => "png",
-            Self::Svg => "svg",
-            Self::Pdf => "pdf",
-            Self::Gif => "gif",
-            Self::Csv => "csv",
-        }
-    }
-
-    /// Whether it shows pictures.
-    pub fn is_drawn(self) -> bool {
-        matches!(self.kind(), FormatKind::Pictures | FormatKind::Moving)
-    }
-
-    fn kind(self) -> FormatKind {
-        match self {
-            Self::Npz | Self::Vti => FormatKind::Fields,
-            Self::NpzSeries => FormatKind::Series,
-            Self::Png | Self::Svg | Self::Pdf => FormatKind::Pictures,
-            Self::Gif => FormatKind::Moving,
-            Self::Csv => FormatKind::Table,
-        }
-    }
-}
 
 /// What becomes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -543,7 +453,7 @@ fn is_moving(name: &str) -> bool {
 
 /// Whether a picture has that name, and a format of that kind that ending.
 fn is_named(name: &str, ending: &str, kind: FormatKind) -> bool {
-    let formats = Format::ALL.into_iter().map(|(format, ..)| format);
+    let formats = Format::ALL.into_iter();
     let mut of_kind = formats.filter(|format| format.kind() == kind);
     of_kind.any(|format| format.ending() == ending) && Pictures::names().any(|own| own == name)
 }

@@ -8,8 +8,8 @@
 //! ```
 //! Phases: of body 1, k·45 degrees more; at S = 0 only where the scene asks for none: both `phase_deg` are 0. Who wants crest on
 //! crest writes 360. Where S is so small that crests do not meet in all ways while the run lasts, whatever is asked for: a longer run
-//! would come through all of them. Laws of the oil: the other law of flow, half and twice the Eyring stress. A factor of two either way is an assumption:
-//! mineral oils are given 2 to 10 MPa.
+//! would come through all of them. Laws of the oil: the other law of flow, half and twice the Eyring stress. A factor of two either
+//! way is an assumption: mineral oils are given 2 to 10 MPa.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
