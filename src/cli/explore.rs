@@ -13,7 +13,7 @@ use asperity_explorer::tui::{
     Health, Rebuild, RecorderActivity, RecorderState, RunStatus, Setup, TuiError, Wiring,
 };
 use asperity_session::run::{Activity, Command, Ending, Request, RunError, Session, Status};
-use asperity_session::sweep::{Background, Ground};
+use asperity_session::sweep::{Background, Ground, Varied};
 use miette::miette;
 
 use super::Engine;
@@ -225,8 +225,10 @@ fn wiring(run: &Running, threads: usize, interrupt: Arc<AtomicBool>) -> Wiring {
         status: Box::new(move || run_status(&status.status(), recorded.as_ref())),
         settled: Box::new(move || settled.settled()),
         start_sweep: Some(Box::new(move |order| {
+            // A curve is a shorter wait than a third mesh.
+            let hold = matches!(order.varied, Varied::Along(_)).then(|| ground.hold());
             let ground = Ground::of(&scene, &*ground.settled()?)?;
-            Some(Background::start(ground, order, threads))
+            Some(Background::start(ground, order, threads, hold.as_ref()))
         })),
         interrupt,
         toggle_recording: recording.map(|recording| {

@@ -179,7 +179,7 @@ fn state_of(scene: &Scene, turns: &[(Knob, f64)]) -> State {
 fn swept(made: &Scene, state: State, order: CurveOrder) -> Vec<Found> {
     let all = order.values.len();
     let scene = Arc::new(made.clone());
-    let sweep = Background::start(Ground { scene, state }, order, 2);
+    let sweep = Background::start(Ground { scene, state }, order, 2, None);
     while sweep.progress().is_some() {
         std::thread::sleep(Duration::from_millis(2));
     }
@@ -269,7 +269,7 @@ fn a_sweep_in_turns_is_that_of_one_thread() {
         state: state_of(&scene, &[]),
         scene: Arc::new(scene),
     };
-    let one_thread = Background::start(ground.clone(), order.clone(), 1);
+    let one_thread = Background::start(ground.clone(), order.clone(), 1, None);
     let (in_turns, worker) = Background::cooperative(ground, order);
     let mut worker = worker.unwrap();
     let mut turns = 0;
@@ -360,7 +360,7 @@ fn a_sweep_that_is_called_off_ends() {
     };
     let state = state_of(&scene, &[]);
     let scene = Arc::new(scene);
-    let sweep = Background::start(Ground { scene, state }, order, 2);
+    let sweep = Background::start(Ground { scene, state }, order, 2, None);
     assert!(sweep.progress().is_some());
     sweep.call_off();
     // A step is a matter of milliseconds, forty cases are not.

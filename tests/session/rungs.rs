@@ -450,6 +450,43 @@ fn seconds_to(session: &Session, since: Instant, is_it: impl Fn(&Settled) -> boo
     since.elapsed().as_secs_f64()
 }
 
+/// As long as somebody holds it, a run stays before its third mesh, and obeys all the same.
+#[test]
+fn a_run_that_is_held_waits_before_its_third_mesh() {
+    let scene = scene("fzg_pitch_point", &[]);
+    let session = Session::start(request(&scene, Ending::OnStop, Vec::new())).unwrap();
+    let hold = session.handle.hold();
+    let copy = hold.clone();
+    drop(hold);
+    let waits = |until: &dyn Fn() -> bool| {
+        let began = Instant::now();
+        while !until() {
+            assert!(began.elapsed() < Duration::from_secs(120), "still waits");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    };
+    let status = || session.handle.status();
+    let settled = || session.handle.settled();
+    for turn in 0..2 {
+        waits(&|| status().rungs.len() == 2 && status().nodes == 257);
+        let before = status().progress;
+        std::thread::sleep(Duration::from_millis(300));
+        assert_eq!(status().progress, before);
+        assert!(settled().is_some_and(|settled| !settled.is_last));
+        if turn == 0 {
+            let speed = 1.1 * scene.motion.entrainment_m_s;
+            session
+                .handle
+                .send(Command::Set(Knob::EntrainmentMS, speed));
+            waits(&|| status().rungs.is_empty());
+        }
+    }
+    drop(copy);
+    waits(&|| settled().is_some_and(|settled| settled.is_last));
+    session.handle.send(Command::Stop);
+    session.join().unwrap();
+}
+
 /// The default scene as the explorer runs it, with nothing beside: the first settled life, the last mesh's, and the first one
 /// after a turn of each knob, over what a headless run on 65 nodes takes.
 #[test]
@@ -470,6 +507,9 @@ fn times_to_the_first_life_to_the_last_mesh_and_after_turns() {
         "last mesh settled",
         seconds_to(&session, began, |settled| settled.is_last),
     );
+    let settled = session.handle.settled().unwrap();
+    let steps = settled.frames.last().unwrap().step;
+    println!("after {steps} steps of its passage");
     // The explorer pauses a run whose period it replays.
     session.handle.send(Command::Pause);
     curve(&scene, &session, &told);
@@ -508,7 +548,7 @@ fn curve(scene: &Arc<Scene>, session: &Session, told: &dyn Fn(&str, f64)) {
         scene: (**scene).clone(),
     };
     let began = Instant::now();
-    let sweep = Background::start(ground, order, 2);
+    let sweep = Background::start(ground, order, 2, None);
     let mut found = 0;
     while sweep.progress().is_some() {
         std::thread::sleep(Duration::from_millis(1));

@@ -5,6 +5,7 @@ mod outward;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
+use std::time::Duration;
 
 use super::checkpoint::Checkpoint;
 use super::clock::Clock;
@@ -22,6 +23,9 @@ use asperity_engine::sim::{Frame, SimError, Simulation, StepError};
 
 /// Frames that the pool starts with: one shown, one in the making, a few in the recorder's queue.
 const FRAMES: usize = 6;
+
+/// How long a run that is held sleeps before it looks again.
+const HELD: Duration = Duration::from_millis(2);
 
 /// Whether the loop steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -316,6 +320,11 @@ impl Driver {
         if let Some(turn) = self.obey(sim, waiting) {
             return turn;
         }
+        if waiting == PausedWait::Allowed && self.is_held() {
+            self.publish_status(sim);
+            std::thread::sleep(HELD);
+            return LoopTurn::Waited;
+        }
         self.play_script(sim);
         let made = match &mut self.make_step {
             Some(make_step) => make_step(sim),
@@ -343,6 +352,11 @@ impl Driver {
             };
         }
         LoopTurn::Stepped
+    }
+
+    /// Whether somebody has asked for the cores, and what this mesh has to say may wait.
+    fn is_held(&self) -> bool {
+        self.climb.rungs.len() >= 2 && !self.has_settled && self.link.lock().is_held()
     }
 
     /// Whether all steps are made; on a coarser mesh those that it is there for.

@@ -1,7 +1,7 @@
 //! How a run is commanded and watched from outside of its loop.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use super::command::Command;
 use super::outputs::WatcherStatus;
@@ -40,6 +40,20 @@ pub struct Status {
 pub(super) struct SharedStatus {
     pub(super) status: Status,
     pub(super) settled: Option<Arc<Settled>>,
+    /// Who asks the run to wait.
+    held: Weak<()>,
+}
+
+impl SharedStatus {
+    pub(super) fn is_held(&self) -> bool {
+        self.held.strong_count() > 0
+    }
+}
+
+/// As long as it, or a copy, is there, the run waits before the third mesh that it climbs to, and before all after it.
+#[derive(Debug, Clone)]
+pub struct Hold {
+    _held: Arc<()>,
 }
 
 /// Where commands go in and what is known of a run comes out.
@@ -95,6 +109,14 @@ impl RunHandle {
     /// A sender for others (a signal handler, a screen).
     pub fn commands(&self) -> Sender<Command> {
         self.commands.clone()
+    }
+
+    /// Asks for the cores for something shorter than a fine mesh; a knob that is turned is obeyed all the same.
+    pub fn hold(&self) -> Hold {
+        let mut shared = lock(&self.shared);
+        let held = shared.held.upgrade().unwrap_or_default();
+        shared.held = Arc::downgrade(&held);
+        Hold { _held: held }
     }
 
     /// The newest frame.

@@ -38,7 +38,7 @@ pub use cooperative::Cooperative;
 pub use crew::share_out;
 pub use driver::LoopTurn;
 pub use errors::NoEstimate;
-pub use handle::{RunHandle, Status};
+pub use handle::{Hold, RunHandle, Status};
 pub use ladder::{Climb, Ladder, Mesh};
 pub use outcome::{End, Outcome, Unconverged};
 pub use outputs::{Activity, Switch, Watcher, WatcherStatus};

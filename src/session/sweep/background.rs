@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::case::{Case, CaseEnd, CaseRecord, CaseStart, Neighbour, RunningCase, Until};
 use super::spec::ChainKeys;
-use crate::run::{Assumed, Settled};
+use crate::run::{Assumed, Hold, Settled};
 use asperity_engine::scene::{CycleBasis, Scene};
 use asperity_engine::sim::State;
 
@@ -180,14 +180,18 @@ pub struct Background {
 }
 
 impl Background {
-    /// Starts `workers` threads; values next to the run's own come first.
-    pub fn start(ground: Ground, order: CurveOrder, workers: usize) -> Self {
+    /// Starts `workers` threads, which keep the `hold` as long as they work; values next to the run's own come first.
+    pub fn start(ground: Ground, order: CurveOrder, workers: usize, hold: Option<&Hold>) -> Self {
         let (this, workers) = Self::manned(ground, order, workers.max(1));
         for mut worker in workers {
+            let hold = hold.cloned();
             // Without a thread those values stay open; nothing else is lost.
             let _ = std::thread::Builder::new()
                 .name("sweep".to_owned())
-                .spawn(move || while worker.turn() {});
+                .spawn(move || {
+                    while worker.turn() {}
+                    drop(hold);
+                });
         }
         this
     }
