@@ -161,6 +161,70 @@ fn the_first_settled_life_is_that_of_a_cold_run() {
     assert!(20 * within >= 19 * made, "{within} of {made}");
 }
 
+/// Points move on through a round that comes back, and what they meet there is what they meet where it is solved: the first
+/// settled life and its cycles are those of three passages more.
+#[test]
+fn a_life_after_one_round_is_that_of_many() {
+    for (name, sets, round) in [
+        // It comes back to 1.3 %, and .5 are asked.
+        ("demonstration", &["grid.nodes=129"][..], false),
+        (
+            "demonstration",
+            &["grid.nodes=129", "motion.slide_roll=-1.2", "lubricant=none"],
+            true,
+        ),
+        (
+            "demonstration",
+            &[
+                "grid.nodes=129",
+                "motion.slide_roll=1",
+                "body_2.young_pa=1.1e11",
+            ],
+            true,
+        ),
+        (
+            "fzg_point_b",
+            &["grid.nodes=257", "motion.slide_roll=0.5"],
+            true,
+        ),
+        ("twin_disc", &["grid.nodes=129"], true),
+        // Its steps do not fit the period.
+        ("demonstration", &["grid.nodes=65"], false),
+    ] {
+        let scene = scene(name, &[sets, &["stress.depths=12"]].concat());
+        let mut sim = simulation(&scene);
+        let first = settle(&mut sim).unwrap();
+        let (steps, repeat) = (sim.passage_steps(), sim.metrics().repeat.unwrap());
+        let distance = sim.time_s() * scene.motion.entrainment_m_s.abs() / sim.summary().a_m;
+        let (slower, rounds) = (
+            distance * (1.0 - 0.5 * scene.motion.slide_roll.abs()),
+            sim.time_s() / repeat.period_s,
+        );
+        for _ in 0..3 * Plan::new(&scene).unwrap().steps_per_passage {
+            sim.step().unwrap();
+        }
+        let long = sim.metrics().life.unwrap();
+        let off = |of: fn(&LifeEstimate) -> f64| of(&first) / of(&long) - 1.0;
+        let (life, cycles) = (
+            off(|life| life.life_relative),
+            off(|life| life.cycle_factor),
+        );
+        println!(
+            "{name} {sets:?}: settled after {steps} steps, {rounds:.3} periods (drift {:.2e}): {:.4e}, life {:+.2} %, cycles {:+.2} %",
+            repeat.drift.unwrap_or(f64::NAN),
+            first.life_relative,
+            100.0 * life,
+            100.0 * cycles
+        );
+        // From ahead of the contact to where a crossing ends.
+        assert_eq!(slower < 2.2, round, "{name} {sets:?}");
+        assert!(
+            !round || life.abs() < 0.02 && cycles.abs() < 0.01,
+            "{name} {sets:?}"
+        );
+    }
+}
+
 /// While a knob walks and until the contact is flushed nothing is settled and nothing repeats, and none of those steps
 /// is left in the means when it is.
 #[test]

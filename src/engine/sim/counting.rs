@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::damage_count::{DamageCount, Passing};
+use super::last_round::LastRound;
 use super::stress_stage::StressStage;
 use super::{LifeEstimate, Metrics};
 use crate::math::grid::Grid;
@@ -22,6 +23,10 @@ const SHOWN_DEPTH: f64 = 0.1;
 const ALIKE: f64 = 1.05;
 /// Half-width behind which a crossing has ended, over Hertz's: what is off the contact adds no cycle.
 const BEHIND: f64 = 1.2;
+/// Steps that points are moved on through known rounds at most.
+const MOST_STEPS: usize = 4096;
+/// How often a round of them is looked at.
+const MARKS: usize = 8;
 /// Columns of a damage map.
 const MAP_COLUMNS: usize = 24;
 
@@ -44,13 +49,19 @@ pub(super) struct Counting {
     exponent: f64,
     /// Cycles by their damage, where a life is asked for.
     by_damage: Option<DamageCount>,
+    /// What passed last, until points have been moved on through it.
+    #[serde(default)]
+    last_round: LastRound,
+    /// Whether points have been moved on through it.
+    #[serde(default)]
+    went_on: bool,
 }
 
 saved! {
     Counting {
         same: exponent;
-        parts: trackers, profiles, by_damage;
-        free: shown_depth, shown_body, is_chosen, shown, reference, reference_size;
+        parts: trackers, profiles, by_damage, last_round;
+        free: went_on, shown_depth, shown_body, is_chosen, shown, reference, reference_size;
     }
     holds |own, saved| saved.shown_depth < own.profiles[0].shear.len().max(1)
 }
@@ -141,6 +152,8 @@ impl Counting {
             exponent: spec.exponent,
             by_damage: (spec.laws.as_ref())
                 .map(|laws| DamageCount::new(grid, spec.depths, laws, spec.waves, pits)),
+            last_round: LastRound::new(grid.nx, depths.len()),
+            went_on: false,
         }
     }
 
@@ -172,6 +185,8 @@ impl Counting {
         if let Some(by_damage) = &mut self.by_damage {
             by_damage.restart(travelled);
         }
+        self.last_round.restart();
+        self.went_on = false;
     }
 
     /// Moves the points by `travel` (in a) and samples the line y = 0 below the surface loaded last.
@@ -182,7 +197,7 @@ impl Counting {
         stress: &StressStage,
         passing: &Passing,
     ) {
-        let line = |body: BodyId| {
+        let lines = BodyId::BOTH.map(|body| {
             let slice = stress.slice_in(body);
             Line {
                 x_first: grid.x_min,
@@ -191,13 +206,52 @@ impl Counting {
                 tau_xz: Some(&slice.sxz[..]),
                 effective: Some(&slice.effective[..]),
             }
-        };
+        });
+        self.pass(travel, &lines, passing);
+        if self.by_damage.is_some() && !self.went_on {
+            self.last_round.push(passing.steps, travel, &lines);
+        }
+        let shown = self.shown_body.index();
+        self.shown = Some(self.trackers[shown].shown(&lines[shown]));
+    }
+
+    /// Whether a whole round has been seen that the points have not been moved on through; once until the next restart.
+    pub(super) fn may_go_on(&self) -> bool {
+        !self.went_on && self.last_round.is_whole()
+    }
+
+    /// Moves the points on through the last round, which those to come are like, until those of a round have crossed; `marked`
+    /// sees the counts [`MARKS`] times a round.
+    pub(super) fn go_on(&mut self, grid: &Grid, passing: &Passing, mut marked: impl FnMut(&Self)) {
+        self.went_on = true;
+        let shown = self.shown_body.index();
+        let at = self.shown.map(|shown| shown.x);
+        let last = std::mem::take(&mut self.last_round);
+        let every = last.len().div_ceil(MARKS);
+        let mut left = MOST_STEPS;
+        while left > 0 && self.covers(passing.round) < 1.0 - 1e-9 {
+            for (n, (travel, lines)) in last.steps((grid.x_min, grid.dx)).enumerate() {
+                self.pass(travel, &lines, passing);
+                left = left.saturating_sub(1);
+                if (n + 1).is_multiple_of(every) {
+                    marked(self);
+                }
+            }
+        }
+        self.last_round = last;
+        self.last_round.restart();
+        self.trackers[shown].look_at(at, self.shown_depth);
+        marked(self);
+    }
+
+    /// Moves the points by `travel` (in a) below such lines.
+    fn pass(&mut self, travel: [f64; 2], lines: &[Line; 2], passing: &Passing) {
         for body in BodyId::BOTH {
             let i = body.index();
             let before = self.trackers[i].crossings();
-            self.trackers[i].step(travel[i], BEHIND * passing.size, &line(body));
+            self.trackers[i].step(travel[i], BEHIND * passing.size, &lines[i]);
             if let Some(by_damage) = &mut self.by_damage {
-                by_damage.step(body, travel[i], &line(body), passing);
+                by_damage.step(body, travel[i], &lines[i], passing);
             }
             if self.trackers[i].crossings() == before {
                 continue;
@@ -209,8 +263,6 @@ impl Counting {
         if let Some(by_damage) = &mut self.by_damage {
             by_damage.take(travel, passing.round, &self.trackers);
         }
-        let shown = self.shown_body;
-        self.shown = Some(self.trackers[shown.index()].shown(&line(shown)));
     }
 
     /// Shows the point of `body` nearest to `x` (in a; `None`: the same point) at depth `k`.

@@ -83,6 +83,8 @@ pub(super) struct Passing {
     pub common: Option<[f64; 2]>,
     /// Distance at U, a, over which means are taken: whole common periods where there are some.
     pub round: f64,
+    /// Fixed steps that make whole common periods; `None`: no number does.
+    pub steps: Option<usize>,
 }
 
 impl DamageCount {

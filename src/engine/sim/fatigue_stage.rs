@@ -12,11 +12,13 @@ mod reference;
 use serde::{Deserialize, Serialize};
 
 use super::counting::Counting;
+use super::damage_count::Passing;
 use super::estimates::{LifeDetail, LifeEstimate, Repeat};
 use super::settling::Settling;
 use super::smooth::LoadAndSpeed;
 use super::stress_stage::StressStage;
 use super::variant::{LifeIntegral, Shared, Variant, models};
+use crate::math::grid::Grid;
 use crate::math::ln_sum::ln_sum;
 use crate::physics::cycles::{BodyId, speed_ratios};
 use crate::physics::fatigue::LifeLaw;
@@ -214,15 +216,45 @@ impl LifeStage {
         let meter = self.variants[0].meter();
         let (distance, period) = meter.distance();
         let covered = counting.map_or(1.0, |counting| counting.covers(period));
-        if by_damage && covered >= 0.5 && self.damage.is_due(distance) {
-            let ln = BodyId::BOTH.map(|body| self.ln_damage(body, counting));
-            self.damage.take(distance, period, ln);
+        if by_damage && self.damage.is_due(distance) {
+            self.mark(counting);
         }
         let damage = by_damage.then_some((&self.damage, covered));
         let meter = self.variants[0].meter();
         let sensitivity = (self.asked.exponent(), stress_error);
         self.settling
             .test(meter, sensitivity, repeat, damage, self.is_smooth);
+    }
+
+    /// Takes down where the damage of both bodies stands, once half of a round has crossed.
+    fn mark(&mut self, counting: Option<&Counting>) {
+        let (distance, period) = self.variants[0].meter().distance();
+        if counting.is_none_or(|counting| counting.covers(period) >= 0.5) {
+            let ln = BodyId::BOTH.map(|body| self.ln_damage(body, counting));
+            self.damage.take(distance, period, ln);
+        }
+    }
+
+    /// Where fields come back and only points are waited for: moves them on through what they meet again, and tests as
+    /// [`Self::test_settled`] does.
+    pub(super) fn wait_for_points(
+        &mut self,
+        stress_error: f64,
+        repeat: Option<Repeat>,
+        counting: &mut Counting,
+        (grid, passing): (&Grid, &Passing),
+    ) {
+        let comes_back = repeat.is_some_and(|repeat| repeat.repeats);
+        if !comes_back || !self.settling.waits_for_points() || !counting.may_go_on() {
+            return;
+        }
+        counting.go_on(grid, passing, |counting| {
+            for variant in &mut self.variants {
+                variant.weigh_material(Some(counting));
+            }
+            self.mark(Some(counting));
+        });
+        self.test_settled(stress_error, repeat, Some(counting));
     }
 
     /// `ln Σ_k n_k^e J_k` of a body by its damage.

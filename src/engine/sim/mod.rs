@@ -15,6 +15,7 @@ mod headline;
 mod heat_stage;
 mod knob;
 mod last_period;
+mod last_round;
 mod lubrication;
 mod measure;
 mod motion;

@@ -169,15 +169,20 @@ impl Orbit {
         (self.rhythm == Rhythm::Orbit).then_some(self.period)
     }
 
-    /// What the mean of the life is taken over.
-    pub(super) fn life_window(&self, passage: f64) -> Window {
+    /// What the mean of the life is taken over: a round, where steps are fitted to it (`usual`: their length before that), as
+    /// what comes back says the same in all of them; else all rounds of a passage.
+    pub(super) fn life_window(&self, passage: f64, usual: Option<f64>) -> Window {
         let period = self.window(passage);
         let round = match self.rhythm {
             Rhythm::Orbit => (self.period * (LEAST_ROUND / self.period).ceil()).min(period),
             Rhythm::Steady | Rhythm::Statistics => period,
         };
         Window {
-            period,
+            period: if self.round_steps(usual).is_some() {
+                round
+            } else {
+                period
+            },
             round,
             is_open: self.rhythm == Rhythm::Statistics,
         }
@@ -208,6 +213,13 @@ impl Orbit {
             }
             Rhythm::Steady | Rhythm::Statistics => step,
         }
+    }
+
+    /// How many fixed steps of about `usual` make as few periods as they fit; `None`: none up to [`LONGEST`], or nothing repeats.
+    pub(super) fn round_steps(&self, usual: Option<f64>) -> Option<usize> {
+        let usual = usual.filter(|_| self.rhythm == Rhythm::Orbit)?;
+        let rounds = self.rounds(usual);
+        fits(rounds, usual).then(|| (rounds / usual).round() as usize)
     }
 
     /// The fewest periods together that fixed steps of about `step` fit; one, where none up to [`LONGEST`] do.

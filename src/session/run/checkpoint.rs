@@ -23,9 +23,9 @@ const FINEST: usize = 1025;
 /// Digits of the digest.
 const DIGITS: usize = 16;
 /// Longest state, bytes: three times what the greatest was seen to take (300 for a node; 2.4 million of a line), with
-/// room for what does not grow with the grid, up to eight million numbers of the steps of a period among it.
+/// room for what does not grow with the grid, up to sixteen million numbers of the steps of a period and of a round among it.
 const LONGEST_NODE: u64 = 1 << 10;
-const LONGEST_REST: u64 = 192 << 20;
+const LONGEST_REST: u64 = 288 << 20;
 
 /// Everything that a run needs to go on.
 #[derive(Debug, Clone, Serialize, Deserialize)]

@@ -82,7 +82,7 @@ pub(super) fn forget_passage(plan: &SimPlan, state: &mut State) {
         warmth.forget();
     }
     state.orbit.restart();
-    let window = state.orbit.life_window(plan.decided.passage_a);
+    let window = (state.orbit).life_window(plan.decided.passage_a, plan.fitted_dt());
     if let Some(life) = &mut state.life {
         life.restart(window);
     }

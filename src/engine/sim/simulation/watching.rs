@@ -5,11 +5,14 @@ use super::step::fitted_nodes;
 use crate::physics::cycles::speed_ratios;
 use crate::physics::felt::felt_contacts;
 use crate::plan::TimeDependence;
+use crate::scene::CycleBasis;
 use crate::sim::counting::{contacts, felt_at_points};
 use crate::sim::damage_count::Passing;
+use crate::sim::drive::Drive;
 use crate::sim::fatigue_stage::Now;
 use crate::sim::heat_stage::{HeatStage, SolvedStep, Warmth};
 use crate::sim::measure::{Fields, Measured, measure};
+use crate::sim::orbit::Orbit;
 use crate::sim::roughness::Roughness;
 use crate::sim::sim_plan::SimPlan;
 use crate::sim::state::Phase;
@@ -36,7 +39,6 @@ pub(super) fn watch(
     if on_fine {
         balance_heat(plan, state, work, &measured);
     }
-    let size = plan.size_now(&state.drive);
     let looks = on_fine && state.phase.has_stress();
     if looks && let Some(stress) = &mut work.stress {
         let (p, q) = (&state.contact.pressure, &work.traction);
@@ -45,13 +47,7 @@ pub(super) fn watch(
             && let Some(counting) = &mut state.counting
         {
             let travel = [0, 1].map(|body: usize| state.watched[body] - before[body]);
-            let ratios = speed_ratios(state.drive.get(Knob::SlideRoll).now);
-            let period = state.orbit.period();
-            let passing = Passing {
-                size,
-                common: period.map(|period| ratios.map(|ratio| ratio.abs() * period)),
-                round: state.orbit.life_window(plan.decided.passage_a).round,
-            };
+            let passing = passing(plan, &state.drive, &state.orbit);
             counting.step(&work.solver.grid, travel, stress, &passing);
         }
     }
@@ -60,6 +56,20 @@ pub(super) fn watch(
     }
     publish(plan, state, work, attempted, &measured);
     state.metrics.flash_temperature_k = work.heat.as_ref().map(HeatStage::greatest_k);
+}
+
+/// What passes now.
+fn passing(plan: &SimPlan, drive: &Drive, orbit: &Orbit) -> Passing {
+    let ratios = speed_ratios(drive.get(Knob::SlideRoll).now);
+    // Only a life by damage waits for points to cross.
+    let life = plan.scene.life.as_ref();
+    let waits = life.is_some_and(|life| life.cycles == CycleBasis::Damage);
+    Passing {
+        size: plan.size_now(drive),
+        common: (orbit.period()).map(|period| ratios.map(|ratio| ratio.abs() * period)),
+        round: orbit.life_window(plan.decided.passage_a, None).round,
+        steps: orbit.round_steps(plan.fitted_dt().filter(|_| waits)),
+    }
 }
 
 /// Counts how warm the surfaces are at the end of the step, which has warmed them unless the contact stands still: then they
@@ -134,14 +144,18 @@ fn sample_life(plan: &SimPlan, state: &mut State, work: &mut Work, stats: &mut S
     let due = state.phase == Phase::Passage && state.distance >= state.next_volume - 1e-9;
     let flushed = state.motion.is_flushed();
     let repeat = state.metrics.repeat;
-    let counting = state.counting.as_ref();
+    let passing = passing(plan, &state.drive, &state.orbit);
+    let grid = &work.solver.grid;
     work.pool.install(|| {
         if let Some(life) = &mut state.life
             && due
         {
-            life.push(every, stress, counting);
+            life.push(every, stress, state.counting.as_ref());
             if flushed {
-                life.test_settled(stress_error, repeat, counting);
+                life.test_settled(stress_error, repeat, state.counting.as_ref());
+            }
+            if let Some(counting) = state.counting.as_mut().filter(|_| flushed) {
+                life.wait_for_points(stress_error, repeat, counting, (grid, &passing));
             }
             stats.stress_volumes += u64::from(life.integrates());
             state.next_volume = next_due(state.next_volume, state.distance, every);
@@ -170,7 +184,7 @@ pub(super) fn look_for_orbit(
     if state.orbit.listen(frequencies, passage)
         && let Some(life) = &mut state.life
     {
-        life.set_window(state.orbit.life_window(passage));
+        life.set_window(state.orbit.life_window(passage, plan.fitted_dt()));
     }
     if state.motion.is_flushed() {
         let step = state.distance - before;
