@@ -62,7 +62,6 @@ fn scene(shape: &[&str], flow: &str, bodies: &[&str], map: Option<&Path>, step: 
         "stress.depth_max_a=1",
         "record=none",
         "numerics.error_estimate=none",
-        "time.passages=0.5",
         "life.cycles=peaks",
         "life.spread=models",
         "motion.slide_roll=0.5",
@@ -73,7 +72,13 @@ fn scene(shape: &[&str], flow: &str, bodies: &[&str], map: Option<&Path>, step: 
     .map(str::to_owned)
     .to_vec();
     sets.extend(shape.iter().chain(bodies).map(|s| (*s).to_owned()));
-    sets.extend([flow.to_owned(), step.to_owned()]);
+    // Adaptive steps are up to twenty times as short.
+    let passages = if step.starts_with("time.tolerance") {
+        "time.passages=0.25"
+    } else {
+        "time.passages=0.5"
+    };
+    sets.extend([flow, step, passages].map(str::to_owned));
     if let Some(file) = map {
         sets.retain(|s| !s.starts_with("body_2.surface"));
         sets.extend([
@@ -85,7 +90,7 @@ fn scene(shape: &[&str], flow: &str, bodies: &[&str], map: Option<&Path>, step: 
     load(&sets)
 }
 
-/// Two events at so many steps of the passage, one on each side of the cut.
+/// Two events at so many of the sixteen fixed steps of half a passage, one on each side of the cut.
 fn script(scene: &mut Scene) {
     let plan = Plan::new(scene).unwrap();
     let load = scene.force_n();
@@ -94,6 +99,7 @@ fn script(scene: &mut Scene) {
         asperity_engine::scene::ContactKind::Line => "load.force_n_per_m",
     };
     for (at, key, value) in [(2.5, "motion.slide_roll", -0.3), (9.5, key, 0.8 * load)] {
+        let at = at * scene.time.most_passages() / 0.5;
         let event = format!(
             "at_s = {:e}\ncaption = 'turned'\nset = {{ '{key}' = {value:?} }}",
             at * plan.dt_s
