@@ -271,7 +271,8 @@ motion.slide_roll = { from = 0.0, to = 1.0, n = 1000 }
 load.force_n = { from = 100.0, to = 900.0, n = 1000 }
 ";
 
-/// Whether a machine that others use as well is as fast as one of its own must not decide: times are of three the best.
+/// Whether a machine that others use as well is as fast as one of its own must not decide: to the first line it is the time of
+/// the program's own processor, and times are of three the best.
 #[cfg(unix)]
 #[test]
 fn a_million_cases_begin_within_two_seconds_and_end_within_one() {
@@ -292,7 +293,18 @@ fn a_million_cases_begin_within_two_seconds_and_end_within_one() {
     }
 }
 
-/// Seconds to the first line, and from a signal to the end.
+/// Seconds of a process on all processors; `None`: this system does not tell.
+#[cfg(unix)]
+fn processor_s(pid: u32) -> Option<f64> {
+    let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
+    // Behind the name, which may hold anything, the twelfth and thirteenth are its own and the system's hundredths.
+    let (_, rest) = stat.rsplit_once(')')?;
+    let hundredths = rest.split_whitespace().skip(11).take(2);
+    let hundredths = hundredths.map(|text| text.parse::<f64>().ok());
+    Some(hundredths.sum::<Option<f64>>()? / 100.0)
+}
+
+/// Seconds to the first line, of the processor where the system tells them, and from a signal to the end.
 #[cfg(unix)]
 fn begun_and_ended(wait: Duration) -> [f64; 2] {
     let root = tempfile::tempdir().unwrap();
@@ -301,10 +313,11 @@ fn begun_and_ended(wait: Duration) -> [f64; 2] {
     let args = ["sweep", "million.toml", "--threads=1", "--out=out"];
     let mut child = started(root.path(), &args);
     let mut said = BufReader::new(child.stderr.take().unwrap());
+    let pid = child.id();
     let lines = std::thread::spawn(move || {
         let mut lines = String::new();
         said.read_line(&mut lines).unwrap();
-        let begun_s = began.elapsed().as_secs_f64();
+        let begun_s = processor_s(pid).unwrap_or_else(|| began.elapsed().as_secs_f64());
         said.read_to_string(&mut lines).unwrap();
         (begun_s, lines)
     });
@@ -314,12 +327,13 @@ fn begun_and_ended(wait: Duration) -> [f64; 2] {
     }
     std::thread::sleep(wait);
     let asked = Instant::now();
-    let pid = child.id().to_string();
-    let sent = Command::new("kill").args(["-TERM", &pid]).status();
+    let asks = ["-TERM".to_owned(), pid.to_string()];
+    let sent = Command::new("kill").args(asks).status();
     assert!(sent.unwrap().success());
+    // Before it is waited for: what it took can be read until then.
+    let (begun_s, said) = lines.join().unwrap();
     let code = child.wait().unwrap().code();
     let ended_s = asked.elapsed().as_secs_f64();
-    let (begun_s, said) = lines.join().unwrap();
     assert_eq!(code, Some(5), "{said}");
     assert!(said.contains("of 1000000 cases; they are kept"), "{said}");
     [begun_s, ended_s]

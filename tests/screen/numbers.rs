@@ -86,6 +86,18 @@ impl Bench {
         }
     }
 
+    /// The same run of the same scene once more, from where it is.
+    pub(super) fn again(&self, scene: &Scene) -> Self {
+        let mut sim = Simulation::new(scene, Plan::new(scene).unwrap(), 1).unwrap();
+        sim.restore(&self.sim.save()).unwrap();
+        Self {
+            app: self.app.clone(),
+            sim,
+            frame: Arc::clone(&self.frame),
+            ticks: self.ticks,
+        }
+    }
+
     /// Until the life has settled with all knobs where they go.
     fn settle(&mut self) {
         loop {
@@ -127,6 +139,13 @@ impl Bench {
                 }
             }
         }
+    }
+
+    /// Loading cycles of the present life, and half its band in their logarithm.
+    fn absolute_life(&self) -> (f64, f64) {
+        let life = self.frame.metrics.life.unwrap();
+        let band = (life.life_relative_high / life.life_relative_low).ln() / 2.0;
+        (life.detail.cycles.unwrap(), band)
     }
 
     fn screen(&self) -> Vec<String> {
@@ -340,6 +359,8 @@ fn a_pinned_comparison_is_the_ratio_of_two_cold_lives() {
     (life.calibration_cycles, life.calibration_pressure_pa) = (Some(1e8), Some(2e9));
     let mut bench = Bench::new(&own);
     bench.settle();
+    // What is pinned is itself a cold run of the scene.
+    let then = bench.absolute_life();
     let load = Knob::ALL.iter().position(|knob| *knob == Knob::ForceN);
     bench.press(&[
         Action::Pin,
@@ -349,16 +370,11 @@ fn a_pinned_comparison_is_the_ratio_of_two_cold_lives() {
     let force_n = bench.app.target(Knob::ForceN);
     bench.settle();
     let shown = bench.app.against_pinned().unwrap();
-    let cold = |force_n: f64| {
-        let mut scene = own.clone();
-        (scene.load.force_n, scene.load.hertz_pressure_pa) = (Some(force_n), None);
-        let mut bench = Bench::new(&scene);
-        bench.settle();
-        let life = bench.frame.metrics.life.unwrap();
-        let band = (life.life_relative_high / life.life_relative_low).ln() / 2.0;
-        (life.detail.cycles.unwrap(), band)
-    };
-    let (now, then) = (cold(force_n), cold(own.force_n()));
+    let mut scene = own.clone();
+    (scene.load.force_n, scene.load.hertz_pressure_pa) = (Some(force_n), None);
+    let mut cold = Bench::new(&scene);
+    cold.settle();
+    let now = cold.absolute_life();
     let expected = now.0 / then.0;
     println!(
         "{force_n:.0} N against 800 N: {shown:.3e} on the screen, {expected:.3e} by two cold runs"

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::session::scramble;
 use crate::common::tui_fixture::{
     State, app, buffer, found, frame, plain, play, running, sent, settled, text, theme,
 };
@@ -366,9 +367,9 @@ fn mashing_every_key_never_breaks() {
         .flat_map(|row| row.keys)
         .map(|(_, action)| *action)
         .collect();
-    // A fixed scramble: each key after each other one.
-    for i in 0..4000_usize {
-        let action = actions[(i * i + 7 * i) / 3 % actions.len()];
+    // A fixed scramble that does not come round again.
+    for i in 0..1600_usize {
+        let action = actions[scramble(i as u64) as usize % actions.len()];
         for effect in app.apply(action) {
             if let Effect::Send(Command::Set(knob, value)) = effect {
                 assert!(value.is_finite(), "{knob:?} {value}");

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::common::keeper::{Kept, kept_request};
 use asperity_engine::plan::Plan;
-use asperity_engine::scene::{Override, Scene, Surface};
+use asperity_engine::scene::{DamageMaps, Override, Scene, Spread, Surface};
 use asperity_engine::sim::{Follow, Frame, Knob, Simulation, State, Summary};
 use asperity_session::run::{
     AppliedCommand, Assumed, AssumedRange, Command, End, Ending, Request, Session, Settled,
@@ -49,7 +49,7 @@ fn wait_for(session: &Session, ready: impl Fn(&Session) -> bool) {
 }
 
 /// A fixed scramble.
-fn scramble(seed: u64) -> u64 {
+pub(super) fn scramble(seed: u64) -> u64 {
     let mut x = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -316,14 +316,18 @@ fn a_sweep_of_the_speed_goes_along_stribecks_curve() {
 /// And over what the scene assumes: each life is that of a run of its own with that choice.
 #[test]
 fn a_sweep_over_what_is_assumed_finds_the_lives_of_runs_of_their_own() {
-    let mut rolling = repeating();
+    let mut sliding = repeating();
+    // Twelve choices by two ways, each of them a life alone.
+    let life = sliding.life.as_mut().unwrap();
+    (life.spread, life.damage_map) = (Spread::Off, DamageMaps::Off);
+    let mut rolling = sliding.clone();
     rolling.motion.slide_roll = 0.0;
     for body in [&mut rolling.body_1, &mut rolling.body_2] {
         if let Surface::Sinusoid { phase_deg, .. } = &mut body.surface {
             *phase_deg = 0.0;
         }
     }
-    for (what, scene) in [(Assumed::OilLaw, repeating()), (Assumed::Phase, rolling)] {
+    for (what, scene) in [(Assumed::OilLaw, sliding), (Assumed::Phase, rolling)] {
         let order = CurveOrder {
             varied: Varied::Assumed(what),
             values: (0..what.count()).map(|k| k as f64).collect(),
