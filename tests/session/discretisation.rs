@@ -98,8 +98,15 @@ const CASES: [(Case, &[&str]); 10] = [
 
 fn scene(case: &Case, more: &[&str], nodes: usize) -> Scene {
     let base = Scene::load(case.1).unwrap();
-    let mut sets: Vec<Override> = ["record=none", "stress.depths=12", "time.passages=0.5"]
-        .iter()
+    // No estimate looks at other models' lives and maps of damage.
+    let bare = [
+        "record=none",
+        "stress.depths=12",
+        "time.passages=0.5",
+        "life.spread=off",
+        "life.damage_map=off",
+    ];
+    let mut sets: Vec<Override> = (bare.iter())
         .chain(more)
         .chain(case.2)
         .map(|s| s.parse().unwrap())

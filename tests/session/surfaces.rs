@@ -40,6 +40,14 @@ fn off(scene: &Scene, frame: &Frame) -> f64 {
     most
 }
 
+/// Heights need no stress and no life.
+const BARE: [&str; 4] = [
+    "record=none",
+    "stress=none",
+    "life=none",
+    "numerics.error_estimate=none",
+];
+
 /// Presets and keys: sliding and rolling, both bodies and one, oblique, dry, line and point, steps of their own length,
 /// meshes above each other.
 const CASES: [(&str, &[&str]); 9] = [
@@ -60,12 +68,7 @@ const CASES: [(&str, &[&str]); 9] = [
     // Three meshes.
     (
         "demonstration_quick",
-        &[
-            "grid.nodes=257",
-            "life=none",
-            "stress=none",
-            "body_2.surface.phase_deg=90",
-        ],
+        &["grid.nodes=257", "body_2.surface.phase_deg=90"],
     ),
     ("twin_disc", &["body_1.surface.phase_deg=90"]),
     (
@@ -79,8 +82,7 @@ const CASES: [(&str, &[&str]); 9] = [
 fn surfaces_stand_where_the_scene_says() {
     let mut found = Vec::new();
     for (preset, sets) in CASES {
-        let more = ["record=none", "time.passages=0.1"];
-        let scene = scene(preset, &[sets, &more].concat());
+        let scene = scene(preset, &[sets, &BARE, &["time.passages=0.1"]].concat());
         let plan = Plan::new(&scene).unwrap();
         let meshes = Ladder::of(&scene, &plan).meshes().len();
         let request = Request {
@@ -110,8 +112,8 @@ fn surfaces_stand_where_the_scene_says() {
 fn surfaces_of_a_warm_start_stand_there_too() {
     let at = |s: &str| {
         let slide_roll = format!("motion.slide_roll={s}");
-        let sets = ["time.passages=0.3", "life.damage_map=off", &slide_roll];
-        scene("demonstration_quick", &sets)
+        let sets = ["grid.nodes=65", "time.passages=0.3", &slide_roll];
+        scene("demonstration_quick", &[&BARE[..], &sets].concat())
     };
     let run = |scene: &Scene, before: Option<&Simulation>| {
         let mut sim = Simulation::new(scene, Plan::new(scene).unwrap(), 2).unwrap();

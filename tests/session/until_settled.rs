@@ -8,8 +8,13 @@ use asperity_engine::scene::{Event, Override, Scene};
 use asperity_session::run::{End, Ending, Outcome, Request, Session};
 
 fn scene(preset: &str, sets: &[&str], passages: Option<f64>) -> Scene {
-    let usual = ["record=none", "numerics.error_estimate=none"];
-    let sets: Vec<Override> = (sets.iter().chain(&usual))
+    let usual = [
+        "record=none",
+        "numerics.error_estimate=none",
+        "stress.depths=8",
+        "life.spread=off",
+    ];
+    let sets: Vec<Override> = (usual.iter().chain(sets))
         .map(|set| set.parse().unwrap())
         .collect();
     let mut scene = Scene::load_with(preset, &sets).unwrap();

@@ -13,6 +13,9 @@ use asperity_study::{MarkdownTable, figure};
 use force::Forced;
 use measure::PruningRow;
 
+/// Where a steady life is compared with that of time steps: on 33 nodes they are 7e-3 apart.
+const STEADY: &str = "grid.nodes=65";
+
 /// The quick demonstration, and with settings that leave other stages out.
 const VARIANTS: [(&str, &[&str]); 5] = [
     ("demonstration", &[]),
@@ -32,11 +35,16 @@ const VARIANTS: [(&str, &[&str]); 5] = [
     ),
     (
         "demonstration, smooth",
-        &["body_1.surface.kind=smooth", "body_2.surface.kind=smooth"],
+        &[
+            STEADY,
+            "body_1.surface.kind=smooth",
+            "body_2.surface.kind=smooth",
+        ],
     ),
     (
         "demonstration, longitudinal",
         &[
+            STEADY,
             "body_1.surface.kind=smooth",
             "body_2.surface.wavelength_x_m=inf",
         ],
@@ -46,8 +54,13 @@ const VARIANTS: [(&str, &[&str]); 5] = [
 /// Forces in, variant by variant, what each leaves out.
 fn pruning() -> Vec<PruningRow> {
     let common = [
-        "grid.nodes=65",
-        "time.passages=0.1",
+        "grid.nodes=33",
+        "time.passages=0.2",
+        "stress.depths=16",
+        // What so few nodes carry as 65 carry the scene's own.
+        "body_1.surface.wavelength_x_m=4e-4",
+        "body_2.surface.wavelength_x_m=4e-4",
+        "body_2.surface.wavelength_y_m=4e-4",
         "numerics.error_estimate=none",
         "record.every_steps=16",
         // So that a difference is the stage's and not the iteration's.
