@@ -16,7 +16,7 @@
 
 use asperity_engine::physics::strength::HARDENED_STEEL;
 use asperity_engine::plan::Plan;
-use asperity_engine::scene::{Override, Scene, presets};
+use asperity_engine::scene::{ContactKind, Override, Scene, presets};
 use asperity_engine::sim::{CautionCode, Frame, Simulation, Stage, Summary};
 use asperity_engine::solve::material::{Line, MaterialTracker, TrackerSpec};
 
@@ -150,10 +150,10 @@ fn passages(scene: &Scene) -> f64 {
 fn counts_and_pressures_of_every_preset() {
     for preset in presets::all() {
         let scene = Scene::load(preset.name).unwrap();
-        // The demonstration on the nodes of its quick one: what is counted does not hang on the mesh by what is allowed here.
-        let nodes = match preset.name {
-            presets::DEFAULT => "grid.nodes=129".to_owned(),
-            _ => format!("grid.nodes={}", scene.grid.nodes),
+        // Points on few nodes: what is counted does not hang on the mesh by what is allowed here.
+        let nodes = match scene.kind() {
+            ContactKind::Point => "grid.nodes=65".to_owned(),
+            ContactKind::Line => format!("grid.nodes={}", scene.grid.nodes),
         };
         let sets = ["life=none", "record=none", "stress.depths=16", &nodes];
         let run = run(preset.name, &sets, passages(&scene));

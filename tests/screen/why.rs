@@ -88,9 +88,13 @@ fn what_a_knob_changes_is_what_two_cold_runs_differ_by() {
         bench
     };
     // The first run of a pair is the one that the knob is turned in, up to there; and that of each knob of a scene.
-    let before = [settled(&point), settled(&line)];
+    let (of_point, of_line) = (settled(&point), settled(&line));
     for (name, scene, knob, value) in cases {
-        let cold_then = &before[usize::from(std::ptr::eq(scene, &raw const line))];
+        let cold_then = if std::ptr::eq(scene, &raw const line) {
+            &of_line
+        } else {
+            &of_point
+        };
         let mut live = cold_then.again(scene);
         live.press(&[Action::GoTo(knob, value)]);
         let value = live.app.target(knob);
