@@ -89,7 +89,7 @@ slide_roll = {}
 [load]
 force_n_per_m = {}
 [grid]
-nodes = 1025
+nodes = 513
 [numerics]
 tolerance = 1e-6
 "#,
