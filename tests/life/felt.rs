@@ -123,7 +123,7 @@ fn crests_that_no_point_counts_are_left_out() {
         for rough in [1, 2] {
             let mut seen = [0, 0];
             let mut before = 0.0;
-            let finely = (0..=18).map(|step| -6.9 + 0.05 * f64::from(step));
+            let finely = (0..=36).map(|step| -6.9 + 0.025 * f64::from(step));
             for power in [-15.0, -9.0, -8.0, -7.5, -7.0].into_iter().chain(finely) {
                 let amplitude_m = 10_f64.powf(power);
                 let (summary, _) = run_until(kind, rough, amplitude_m, |sim| {
