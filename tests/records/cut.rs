@@ -184,9 +184,9 @@ fn words_for(found: Option<(usize, u64)>) -> String {
 #[test]
 fn a_disk_that_fills_is_code_4_and_what_was_written_is_read() {
     let mut kept = Vec::new();
-    for k in 0..15_u32 {
-        // From 64 kB to 4 MB, each a third more.
-        let kilobytes = (64.0 * 64.0_f64.powf(f64::from(k) / 14.0)).round() as u64;
+    for k in 0..30_u32 {
+        // From 64 kB to 4 MB, each a seventh more.
+        let kilobytes = (64.0 * 64.0_f64.powf(f64::from(k) / 29.0)).round() as u64;
         let folder = tempfile::tempdir().unwrap();
         let place = folder.path();
         let output = limited(place, kilobytes, "6", &["--out=run.rrd"]);
@@ -213,7 +213,7 @@ fn a_disk_that_fills_is_code_4_and_what_was_written_is_read() {
         );
         let names: Vec<_> = std::fs::read_dir(place).unwrap().collect();
         assert_eq!(names.len(), usize::from(found.is_some()), "{names:?}");
-        if found.is_some() && k % 3 == 1 {
+        if found.is_some() && k % 4 == 1 {
             let export = ["export", "run.rrd", "--as=npz", "--every=8", "--out=fields"];
             let export = asperity(place, &export);
             let words = told(&export);
@@ -226,7 +226,7 @@ fn a_disk_that_fills_is_code_4_and_what_was_written_is_read() {
     }
     println!("kB, steps: {kept:?}");
     assert!(kept.is_sorted_by_key(|(_, steps)| *steps), "{kept:?}");
-    assert!(kept[14].1 > 10, "{kept:?}");
+    assert!(kept[29].1 > 10, "{kept:?}");
 }
 
 /// Every other output on such a disk, and the properties that come last.

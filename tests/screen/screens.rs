@@ -368,7 +368,7 @@ fn mashing_every_key_never_breaks() {
         .map(|(_, action)| *action)
         .collect();
     // A fixed scramble that does not come round again.
-    for i in 0..1600_usize {
+    for i in 0..4000_usize {
         let action = actions[scramble(i as u64) as usize % actions.len()];
         for effect in app.apply(action) {
             if let Effect::Send(Command::Set(knob, value)) = effect {
