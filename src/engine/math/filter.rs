@@ -261,7 +261,28 @@ impl<T: FftNum> Filter<T> {
             });
     }
 
+    /// Of a line, whose transform along y is the identity.
+    fn one_row(&mut self, weights: Option<&Weights<T>>) {
+        let is_used = |b: usize| weights.is_none_or(|w| w.any[b]);
+        let (n_kx, n_symbols) = (self.n_kx, self.n_symbols);
+        for b in (0..n_symbols).filter(|&b| is_used(b)) {
+            let symbol = &self.symbols[b * n_kx..][..n_kx];
+            let out = self.columns_out[b..].iter_mut().step_by(n_symbols);
+            for ((out, v), s) in out.zip(&self.rows_spectrum).zip(symbol) {
+                let v = Complex::new(v.re * *s, v.im * *s);
+                *out = match self.parity {
+                    Parity::Even => v,
+                    Parity::OddInX => Complex::new(-v.im, v.re),
+                };
+            }
+        }
+    }
+
     fn columns(&mut self, weights: Option<&Weights<T>>) {
+        if self.ly == 1 {
+            self.one_row(weights);
+            return;
+        }
         let (ny, len, n_kx, n_symbols) = (self.ny, self.column_len, self.n_kx, self.n_symbols);
         let (plan, parity) = (&self.columns, self.parity);
         let (rows, symbols) = (&self.rows_spectrum, &self.symbols);

@@ -16,7 +16,8 @@
 //! ends of the domain they are the direct sums (free space, no images). Influence functions were taken
 //! rather than windowed frequency responses because in one dimension their tables are small (6 numbers
 //! a mode and depth) and need no window. Error: that of steps in place of the pressure, second order away
-//! from Hertz's edge. The life integral is over x and z, per unit length.
+//! from Hertz's edge. The life integral is over x and z, per unit length. What pressure does and what traction does are
+//! transformed once a surface; the loadings of both bodies are their sum, their difference and the first alone.
 //!
 //! Proved in `tests/engine/line.rs`: Hertz's maxima, the direct sum, the life integrals.
 //! Source: Johnson, Contact Mechanics (1985), §2.5 (strips), §4.2 (Hertz line).
@@ -33,6 +34,7 @@ use super::peak;
 use super::slice_out::{Peak, SliceOut};
 use super::spec::{Loading, StressSpec, Symmetry};
 use super::sums::{LayerSum, MAX_LAWS, StressLaw, VolumeSums};
+use crate::math::elementary;
 use crate::math::kernel_symbol::{REPEATING, even_kernel_symbol, odd_kernel_symbol};
 use crate::physics::cycles::BodyId;
 use crate::scene::StressMeasure;
@@ -40,27 +42,32 @@ use crate::scene::StressMeasure;
 /// Stress below which a point adds nothing to a life integral, p_h: its tenth power is 1e-60 of the greatest.
 const NEGLIGIBLE: f32 = 1e-6;
 
+/// Components of a plane stress that are transformed: xx, zz, xz.
+const COMPONENTS: usize = 3;
+
 /// Symbols of one depth: pressure and traction to each component.
 struct LineLayer {
-    /// xx, zz, xz; by pressure and by traction, one number a mode. Real where the kernel is even; the
-    /// imaginary part where it is odd.
-    symbols: [[Vec<f32>; 2]; 3],
+    /// By pressure and by traction: xx, zz, xz, one number a mode. Real where the kernel is even; the imaginary part where it
+    /// is odd.
+    symbols: [[Vec<f32>; COMPONENTS]; 2],
 }
 
-/// The engine of a line: tables, spectra of the surface loaded last, scratch.
+/// The engine of a line: tables, stress by the surface loaded last, scratch.
 pub struct LineStress {
     spec: StressSpec,
     layers: Vec<LineLayer>,
     forward: Arc<dyn RealToComplex<f32>>,
     inverse: Arc<dyn ComplexToReal<f32>>,
-    /// Spectra of p and q.
-    spectra: [Vec<Complex<f32>>; 2],
     loaded: LoadedLine,
     real: Vec<f32>,
+    spectrum: Vec<Complex<f32>>,
     product: Vec<Complex<f32>>,
     scratch: Vec<Complex<f32>>,
-    /// xx, zz, xz of one depth.
-    rows: [Vec<f32>; 3],
+    /// By pressure and by traction: `[(k · 3 + component) · nx + i]`.
+    stress: [Vec<f32>; 2],
+    /// xx, zz, xz and the measure along one depth.
+    rows: [Vec<f32>; COMPONENTS],
+    row: Vec<f32>,
     sums: VolumeSums,
 }
 
@@ -92,6 +99,7 @@ impl LineStress {
         );
         let zero = Complex::new(0.0, 0.0);
         let modes = length / 2 + 1;
+        let stress = vec![0.0; spec.depths.len() * COMPONENTS * nx];
         let scratch = forward.get_scratch_len().max(inverse.get_scratch_len());
         Self {
             layers: spec
@@ -99,12 +107,14 @@ impl LineStress {
                 .iter()
                 .map(|&z| LineLayer::new(length, dx, z))
                 .collect(),
-            spectra: [vec![zero; modes], vec![zero; modes]],
             loaded: LoadedLine::Pressure,
             real: vec![0.0; length],
+            spectrum: vec![zero; modes],
             product: vec![zero; modes],
             scratch: vec![zero; scratch],
-            rows: [vec![0.0; nx], vec![0.0; nx], vec![0.0; nx]],
+            stress: [stress.clone(), stress],
+            rows: [0; COMPONENTS].map(|_| vec![0.0; nx]),
+            row: vec![0.0; nx],
             sums: VolumeSums::of_line(&spec.weights),
             spec,
             forward,
@@ -119,20 +129,35 @@ impl LineStress {
 
     /// Takes a surface: pressure and, where there is any, traction.
     pub fn load(&mut self, pressure: &[f32], traction: Option<&[f32]>) {
-        self.transform(0, pressure);
+        self.act(0, pressure);
         self.loaded = LoadedLine::Pressure;
         if let Some(traction) = traction {
-            self.transform(1, traction);
+            self.act(1, traction);
             self.loaded = LoadedLine::PressureAndTraction;
         }
     }
 
-    fn transform(&mut self, which: usize, field: &[f32]) {
+    /// What pressure (0) or traction (1) does at every depth.
+    fn act(&mut self, which: usize, field: &[f32]) {
         self.real[..field.len()].copy_from_slice(field);
         self.real[field.len()..].fill(0.0);
         self.forward
-            .process_with_scratch(&mut self.real, &mut self.spectra[which], &mut self.scratch)
+            .process_with_scratch(&mut self.real, &mut self.spectrum, &mut self.scratch)
             .expect("buffer lengths were made for this plan");
+        let symbols =
+            (self.layers.iter()).flat_map(|layer| layer.symbols[which].iter().enumerate());
+        let rows = self.stress[which].chunks_exact_mut(self.spec.nx);
+        for (row, (component, symbol)) in rows.zip(symbols) {
+            // xx and zz are even in x under pressure and odd under traction; xz the other way round.
+            let is_even = (component < 2) == (which == 0);
+            multiply(&self.spectrum, symbol, is_even, &mut self.product);
+            let last = self.product.len() - 1;
+            (self.product[0].im, self.product[last].im) = (0.0, 0.0);
+            self.inverse
+                .process_with_scratch(&mut self.product, &mut self.real, &mut self.scratch)
+                .expect("buffer lengths were made for this plan");
+            row.copy_from_slice(&self.real[..self.spec.nx]);
+        }
     }
 
     /// The stress of body 1 in the plane x z under the surface loaded last.
@@ -145,20 +170,43 @@ impl LineStress {
         let nx = self.spec.nx;
         let nu = self.spec.poisson(loading.body()) as f32;
         for k in 0..self.layers.len() {
-            self.layer(k, loading);
             let here = k * nx..(k + 1) * nx;
-            let [xx, zz, xz] = &self.rows;
-            out.sxx[here.clone()].copy_from_slice(xx);
-            out.szz[here.clone()].copy_from_slice(zz);
-            out.sxz[here.clone()].copy_from_slice(xz);
-            for i in 0..nx {
-                let yy = nu * (xx[i] + zz[i]);
-                out.syy[here.start + i] = yy;
-                out.effective[here.start + i] =
-                    effective(self.spec.measure, [xx[i], yy, zz[i], xz[i]]);
+            let fields = [&mut out.sxx, &mut out.szz, &mut out.sxz];
+            let [xx, zz, xz] = fields.map(|field| &mut field[here.clone()]);
+            for (component, to) in [&mut *xx, &mut *zz, &mut *xz].into_iter().enumerate() {
+                self.component(k, component, loading, to);
             }
+            let yy = &mut out.syy[here.clone()];
+            for (yy, (xx, zz)) in yy.iter_mut().zip(xx.iter().zip(&*zz)) {
+                *yy = nu * (xx + zz);
+            }
+            measures(
+                self.spec.measure,
+                nu,
+                [xx, zz, xz],
+                &mut out.effective[here],
+            );
         }
         out.peak = peak::refine(&self.spec, out);
+    }
+
+    /// A component at depth `k`.
+    fn component(&self, k: usize, component: usize, loading: Loading, to: &mut [f32]) {
+        let nx = self.spec.nx;
+        let row = (k * COMPONENTS + component) * nx..(k * COMPONENTS + component + 1) * nx;
+        let [by_pressure, by_traction] = &self.stress;
+        let sign = match self.loaded {
+            LoadedLine::Pressure => 0.0,
+            LoadedLine::PressureAndTraction => loading.traction_sign(),
+        };
+        if sign == 0.0 {
+            to.copy_from_slice(&by_pressure[row]);
+        } else {
+            let both = by_pressure[row.clone()].iter().zip(&by_traction[row]);
+            for (to, (p, q)) in to.iter_mut().zip(both) {
+                *to = p + sign * q;
+            }
+        }
     }
 
     /// ln ∫ s^m dx dz of the surface loaded last, without and with its traction.
@@ -202,27 +250,24 @@ impl LineStress {
 
     /// One depth under one loading.
     fn layer_sums(&mut self, k: usize, loading: Loading, laws: &[StressLaw]) {
-        self.layer(k, loading);
         let nu = self.spec.poisson(loading.body()) as f32;
+        let mut rows = std::mem::take(&mut self.rows);
+        for (component, row) in rows.iter_mut().enumerate() {
+            self.component(k, component, loading, row);
+        }
+        let [xx, zz, xz] = &rows;
+        measures(self.spec.measure, nu, [xx, zz, xz], &mut self.row);
+        self.rows = rows;
         let (mut top, mut at) = (0.0_f32, 0);
-        for i in 0..self.spec.nx {
-            let [xx, zz, xz] = [0, 1, 2].map(|c: usize| self.rows[c][i]);
-            let s = effective(self.spec.measure, [xx, nu * (xx + zz), zz, xz]);
-            // The first row is not needed any more.
-            self.rows[0][i] = s;
-            if s > top {
-                (top, at) = (s, i);
+        for (i, s) in self.row.iter().enumerate() {
+            if *s > top {
+                (top, at) = (*s, i);
             }
         }
         for (slot, law) in laws.iter().enumerate() {
             let greatest = f64::from(top) - law.limit;
-            let beyond = self.rows[0]
-                .iter()
-                .filter(|s| **s > NEGLIGIBLE)
-                .map(|s| (f64::from(*s) - law.limit) / greatest)
-                .filter(|part| *part > 0.0);
             let ln = if greatest > 0.0 {
-                let sum: f64 = beyond.map(|part| part.powf(law.exponent)).sum();
+                let sum = power_sum(&self.row, *law, greatest);
                 (self.spec.weights[k] * self.spec.dx * sum).ln() + law.exponent * greatest.ln()
             } else {
                 f64::NEG_INFINITY
@@ -236,39 +281,51 @@ impl LineStress {
             self.sums.set(loading, slot, k, LayerSum { ln, peak });
         }
     }
+}
 
-    /// xx, zz, xz of depth `k` into `rows`.
-    fn layer(&mut self, k: usize, loading: Loading) {
-        let [p, q] = &self.spectra;
-        let sign = loading.traction_sign();
-        for (component, (row, [by_p, by_q])) in self
-            .rows
-            .iter_mut()
-            .zip(&self.layers[k].symbols)
-            .enumerate()
-        {
-            // xx and zz are even in x under pressure and odd under traction; xz the other way round.
-            let even_by_pressure = component < 2;
-            let turned = |v: Complex<f32>| Complex::new(-v.im, v.re);
-            for ((o, &p), &a) in self.product.iter_mut().zip(p).zip(by_p) {
-                let v = if even_by_pressure { p } else { turned(p) };
-                *o = v * a;
-            }
-            if self.loaded == LoadedLine::PressureAndTraction && sign != 0.0 {
-                for ((o, &q), &b) in self.product.iter_mut().zip(q).zip(by_q) {
-                    let v = if even_by_pressure { turned(q) } else { q };
-                    *o += v * (sign * b);
-                }
-            }
-            let last = self.product.len() - 1;
-            (self.product[0].im, self.product[last].im) = (0.0, 0.0);
-            self.inverse
-                .process_with_scratch(&mut self.product, &mut self.real, &mut self.scratch)
-                .expect("buffer lengths were made for this plan");
-            let nx = row.len();
-            row.copy_from_slice(&self.real[..nx]);
+dispatched! {
+/// A spectrum times a symbol: real where its kernel is even, imaginary where it is odd.
+fn multiply(spectrum: &[Complex<f32>], symbol: &[f32], is_even: bool, out: &mut [Complex<f32>]) {
+    let pairs = out.iter_mut().zip(spectrum).zip(symbol);
+    if is_even {
+        for ((out, v), s) in pairs {
+            *out = Complex::new(v.re * s, v.im * s);
+        }
+    } else {
+        for ((out, v), s) in pairs {
+            *out = Complex::new(-v.im * s, v.re * s);
         }
     }
+}
+}
+
+dispatched! {
+/// The measure along a row of xx, zz, xz.
+fn measures(measure: StressMeasure, nu: f32, [xx, zz, xz]: [&[f32]; COMPONENTS], out: &mut [f32]) {
+    for (((out, xx), zz), xz) in out.iter_mut().zip(xx).zip(zz).zip(xz) {
+        *out = effective(measure, [*xx, nu * (xx + zz), *zz, *xz]);
+    }
+}
+}
+
+/// Points that are raised to a power side by side.
+const SIDE_BY_SIDE: usize = 8;
+
+dispatched! {
+/// `Σ (<s − limit>/greatest)^exponent` of a row.
+fn power_sum(row: &[f32], law: StressLaw, greatest: f64) -> f64 {
+    let mut sums = [0.0; SIDE_BY_SIDE];
+    for part in row.chunks(SIDE_BY_SIDE) {
+        for (sum, s) in sums.iter_mut().zip(part) {
+            let beyond = f64::from(*s) - law.limit;
+            let is_felt = *s > NEGLIGIBLE && beyond > 0.0;
+            let share = if is_felt { beyond / greatest } else { 1.0 };
+            let power = elementary::exp(law.exponent * elementary::ln(share));
+            *sum += if is_felt { power } else { 0.0 };
+        }
+    }
+    sums.iter().sum()
+}
 }
 
 impl LineLayer {
@@ -290,9 +347,8 @@ impl LineLayer {
         let odd = |f| narrow(odd_kernel_symbol((length, 1), REPEATING, strip(f)));
         Self {
             symbols: [
-                [even(across), odd(along)],
-                [even(down), odd(shared)],
-                [odd(shared), even(across)],
+                [even(across), even(down), odd(shared)],
+                [odd(along), odd(shared), even(across)],
             ],
         }
     }
@@ -320,7 +376,7 @@ fn along(x: f64, z: f64) -> f64 {
 }
 
 /// The measure of xx, yy, zz, xz with y a principal axis.
-#[inline]
+#[inline(always)]
 fn effective(measure: StressMeasure, [xx, yy, zz, xz]: [f32; 4]) -> f32 {
     let (a, b, c) = (xx - yy, yy - zz, zz - xx);
     let mises = || (0.5 * (a * a + b * b + c * c) + 3.0 * xz * xz).sqrt();
