@@ -25,6 +25,7 @@ use std::ops::Range;
 
 use super::marks::Marks;
 use super::stress::Loading;
+use crate::math::elementary;
 use crate::math::ln_sum::{ln_list, ln_sum};
 use crate::physics::cycles::BodyId;
 use crate::physics::fatigue::{CyclePair, IntegralLogs, LifeFactors, LifeLaw};
@@ -67,6 +68,11 @@ impl Shares {
         ln_sum(self.of(loading).iter().map(|ln| (1.0, *ln)))
     }
 
+    /// Same of both bodies under their full load.
+    fn ln_full(&self) -> [f64; 2] {
+        BodyId::BOTH.map(|body| self.ln(Loading::Full(body)))
+    }
+
     /// Nothing at any depth again.
     pub fn clear(&mut self) {
         self.logs.fill(f64::NEG_INFINITY);
@@ -94,6 +100,9 @@ saved! {
 #[serde(transparent)]
 struct Phases {
     list: VecDeque<MergedPhase>,
+    /// ln J of each under the full load of both bodies.
+    #[serde(skip)]
+    ln: VecDeque<[f64; 2]>,
     /// Not in use.
     #[serde(skip)]
     spare: Vec<MergedPhase>,
@@ -115,12 +124,19 @@ impl Phases {
         };
         Self {
             list: VecDeque::with_capacity(room),
+            ln: VecDeque::with_capacity(room),
             spare: vec![empty; room],
         }
     }
 
     fn clear(&mut self) {
         self.spare.extend(self.list.drain(..));
+        self.ln.clear();
+    }
+
+    fn drop_first(&mut self) {
+        self.spare.extend(self.list.pop_front());
+        self.ln.pop_front();
     }
 
     /// Takes a sample; false: there is no memory left for it.
@@ -130,9 +146,60 @@ impl Phases {
         };
         phase.span = span;
         phase.shares.logs.copy_from_slice(&shares.logs);
+        self.ln.push_back(phase.shares.ln_full());
         self.list.push_back(phase);
         true
     }
+
+    /// Makes one of every two.
+    fn merge_pairs(&mut self) {
+        for pair in 0..self.list.len() / 2 {
+            let Some(other) = self.list.remove(pair + 1) else {
+                break;
+            };
+            let one = &mut self.list[pair];
+            let span = one.span + other.span;
+            for (a, b) in one.shares.logs.iter_mut().zip(&other.shares.logs) {
+                *a = ln_sum([(one.span, *a), (other.span, *b)]) - span.ln();
+            }
+            one.span = span;
+            self.spare.push(other);
+        }
+        self.ln.clear();
+        self.ln
+            .extend(self.list.iter().map(|phase| phase.shares.ln_full()));
+    }
+}
+
+/// Logarithms whose means are taken side by side.
+const SIDE_BY_SIDE: usize = 16;
+
+dispatched! {
+/// `ln Σ τ e^a − ln Σ τ` of every logarithm, without the `beyond` of the oldest sample's span.
+fn mean_logs(list: &VecDeque<MergedPhase>, beyond: f64, means: &mut [f64]) {
+    let span = |k: usize| list[k].span - if k == 0 { beyond } else { 0.0 };
+    let ln_all = (0..list.len()).map(span).sum::<f64>().ln();
+    for (part, means) in means.chunks_mut(SIDE_BY_SIDE).enumerate() {
+        let here = part * SIDE_BY_SIDE..part * SIDE_BY_SIDE + means.len();
+        let (mut tops, mut sums) = ([f64::NEG_INFINITY; SIDE_BY_SIDE], [0.0; SIDE_BY_SIDE]);
+        for phase in list {
+            for (top, a) in tops.iter_mut().zip(&phase.shares.logs[here.clone()]) {
+                *top = if *a > *top { *a } else { *top };
+            }
+        }
+        for (k, phase) in list.iter().enumerate() {
+            let span = span(k);
+            let logs = &phase.shares.logs[here.clone()];
+            for ((sum, top), a) in sums.iter_mut().zip(&tops).zip(logs) {
+                *sum += span * elementary::exp(a - top);
+            }
+        }
+        for ((mean, top), sum) in means.iter_mut().zip(tops).zip(sums) {
+            // Nothing at any time stays nothing.
+            *mean = if top.is_finite() { top + sum.ln() - ln_all } else { top };
+        }
+    }
+}
 }
 
 impl Saved for Phases {
@@ -254,14 +321,14 @@ impl LifeMeter {
             && self.total - first.span >= self.window.period * (1.0 - 1e-9)
         {
             self.total -= first.span;
-            self.phases.spare.extend(self.phases.list.pop_front());
+            self.phases.drop_first();
         }
         if self.phases.list.len() > self.capacity {
-            self.merge_pairs();
+            self.phases.merge_pairs();
         }
         self.take_mean();
         if self.covers() && self.marks.is_due(self.distance) {
-            let now = BodyId::BOTH.map(|body| self.mean.ln(Loading::Full(body)));
+            let now = self.mean.ln_full();
             self.marks.take(self.distance, self.window.round, now);
         }
     }
@@ -275,16 +342,15 @@ impl LifeMeter {
     /// what was seen: by the means of [`BATCHES`] batches, s/√n times t of Student's distribution, over their mean; 0 of fewer
     /// samples. Source: the method of batch means, Conway (1963).
     pub fn unsure(&self) -> f64 {
-        let list = &self.phases.list;
+        let Phases { list, ln, .. } = &self.phases;
         if list.len() < BATCHES {
             return 0.0;
         }
         let of = |body: BodyId| {
             let mean = |batch: Range<usize>| {
-                let span: f64 = list.range(batch.clone()).map(|phase| phase.span).sum();
-                let terms = list.range(batch);
-                let terms = terms.map(|phase| (phase.span, phase.shares.ln(Loading::Full(body))));
-                ln_sum(terms) - span.ln()
+                let spans = list.range(batch.clone()).map(|phase| phase.span);
+                let logs = ln.range(batch).map(|ln| ln[body.index()]);
+                ln_sum(spans.clone().zip(logs)) - spans.sum::<f64>().ln()
             };
             let whole = mean(0..list.len());
             let at = |batch: usize| batch * list.len() / BATCHES;
@@ -307,22 +373,6 @@ impl LifeMeter {
         (self.distance, self.window.round)
     }
 
-    fn merge_pairs(&mut self) {
-        let pairs = self.phases.list.len() / 2;
-        for pair in 0..pairs {
-            let Some(other) = self.phases.list.remove(pair + 1) else {
-                break;
-            };
-            let one = &mut self.phases.list[pair];
-            let span = one.span + other.span;
-            for (a, b) in one.shares.logs.iter_mut().zip(&other.shares.logs) {
-                *a = ln_sum([(one.span, *a), (other.span, *b)]) - span.ln();
-            }
-            one.span = span;
-            self.phases.spare.push(other);
-        }
-    }
-
     fn take_mean(&mut self) {
         let all: f64 = self.phases.list.iter().map(|p| p.span).sum();
         let beyond = if self.window.is_open {
@@ -330,13 +380,7 @@ impl LifeMeter {
         } else {
             (all - self.window.period).max(0.0)
         };
-        for (i, mean) in self.mean.logs.iter_mut().enumerate() {
-            let terms = self.phases.list.iter().enumerate().map(|(k, phase)| {
-                let outside = if k == 0 { beyond } else { 0.0 };
-                (phase.span - outside, phase.shares.logs[i])
-            });
-            *mean = ln_sum(terms) - (all - beyond).ln();
-        }
+        mean_logs(&self.phases.list, beyond, &mut self.mean.logs);
     }
 
     /// Mean shares over the window; `None` before the first sample.
@@ -559,8 +603,22 @@ mod tests {
         }
         let ln = |meter: &LifeMeter| meter.mean().expect("sampled").ln(FULL);
         assert_relative_eq!(ln(&small), ln(&large), max_relative = 1e-12);
-        let Phases { list, spare } = &small.phases;
+        let Phases { list, spare, .. } = &small.phases;
         assert!(list.len() <= 17 && list.len() + spare.len() == 17);
+    }
+
+    #[test]
+    fn a_depth_that_is_never_stressed_has_no_share() {
+        let mut meter = LifeMeter::new(2, Window::closed(4.0), 64);
+        for value in [1.0, 3.0] {
+            let mut sample = Shares::new(2);
+            sample.of_mut(FULL)[0] = f64::ln(value);
+            meter.push(1.0, &sample);
+        }
+        let mean = meter.mean().expect("sampled");
+        assert_eq!(mean.of(FULL)[1], f64::NEG_INFINITY);
+        assert_relative_eq!(mean.of(FULL)[0], 2.0_f64.ln(), max_relative = 1e-12);
+        assert_eq!(mean.of(NORMAL), [f64::NEG_INFINITY; 2]);
     }
 
     #[test]
