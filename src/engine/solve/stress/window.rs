@@ -14,7 +14,9 @@
 //! Ours: a kernel times W has no images where W vanishes, and its spectrum is the kernel's smeared by W's; both follow
 //! from the convolution theorem.
 
+use std::collections::VecDeque;
 use std::f64::consts::PI;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 
@@ -71,10 +73,47 @@ struct QuadraturePoint {
     sin_y: [f64; LOW],
 }
 
+/// What tables are of.
+#[derive(Debug, Clone, PartialEq)]
+struct Tabulated {
+    period: (f64, f64),
+    edge: f64,
+    depths: Vec<f64>,
+}
+
+/// Most tables that are kept, a megabyte each at 32 depths.
+const KEPT: usize = 4;
+
+/// The last ones, the newest first. They hang on nothing but what they are of: a run asks for the same on each of its meshes, for
+/// each law of its oil and after each turn of a knob, a sweep for each of its cases.
+static LAST: Mutex<VecDeque<(Tabulated, Arc<[LowModes]>)>> = Mutex::new(VecDeque::new());
+
 /// Tables of every depth, for the period `lx` × `ly`.
-pub(super) fn low_modes((lx, ly): (f64, f64), edge: f64, depths: &[f64]) -> Vec<LowModes> {
+pub(super) fn low_modes(period: (f64, f64), edge: f64, depths: &[f64]) -> Arc<[LowModes]> {
+    let depths = depths.to_vec();
+    let asked = Tabulated {
+        period,
+        edge,
+        depths,
+    };
+    let last = || LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    let found = last().iter().find(|(of, _)| *of == asked).cloned();
+    // Made while nobody waits: a thread that makes one may be given another that asks for one.
+    let (of, tables) = found.unwrap_or_else(|| {
+        let tables = tabulate(&asked);
+        (asked, tables)
+    });
+    let mut last = last();
+    last.retain(|(other, _)| *other != of);
+    last.push_front((of, Arc::clone(&tables)));
+    last.truncate(KEPT);
+    tables
+}
+
+fn tabulate(asked: &Tabulated) -> Arc<[LowModes]> {
+    let depths = &asked.depths;
     let shallowest = depths.iter().copied().fold(f64::INFINITY, f64::min);
-    let points = quadrature((lx, ly), edge, shallowest);
+    let points = quadrature(asked.period, asked.edge, shallowest);
     depths
         .par_iter()
         .map(|&z| {
@@ -232,6 +271,22 @@ mod tests {
         ] {
             assert!((erfc(x) - value).abs() < 1e-13, "{x}: {}", erfc(x));
         }
+    }
+
+    #[test]
+    fn tables_are_kept_for_who_asks_for_the_same() {
+        let of = |ly: f64, edge: f64, z: f64| low_modes((5.0, ly), edge, &[0.4, z]);
+        let tables = of(7.0, 0.06, 1.0);
+        let again = of(7.0, 0.06, 1.0);
+        assert!(Arc::ptr_eq(&tables, &again));
+        // Whatever differs makes them others, and those that are asked for anew are the same numbers.
+        for other in [of(7.5, 0.06, 1.0), of(7.0, 0.07, 1.0), of(7.0, 0.06, 1.1)] {
+            assert_ne!(tables[1].sums, other[1].sums);
+        }
+        for k in 1..=KEPT {
+            of(7.0 + k as f64, 0.06, 1.0);
+        }
+        assert_eq!(tables[1].sums, of(7.0, 0.06, 1.0)[1].sums);
     }
 
     #[test]
