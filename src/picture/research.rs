@@ -4,7 +4,7 @@
 use asperity_engine::math::number::{GPA, UM, sig};
 use asperity_engine::physics::rainflow::{Cycle, HistoryEnds, Rainflow};
 use asperity_engine::physics::ripple::amplitude_ratio;
-use asperity_engine::scene::{ContactKind, Life, LifeModel, Scene};
+use asperity_engine::scene::{ContactKind, Life, Scene};
 use asperity_engine::sim::Frame;
 
 use crate::chart::Scale;
@@ -257,7 +257,8 @@ fn moes(scene: &Scene) -> Option<[f64; 2]> {
 
 /// Exponent s of N ∝ σ^−s; `None`: a fatigue limit leaves no such law.
 fn stress_exponent(life: &Life) -> Option<f64> {
-    let is_limited = life.model == LifeModel::IoannidesHarris && life.limit_pa > 0.0;
+    let law = life.equation(life.model, 1.0).stress_law(life.law());
+    let is_limited = law.is_some_and(|(_, limit)| limit > 0.0);
     (!is_limited).then(|| life.exponent())
 }
 
@@ -336,6 +337,7 @@ fn sn_point(scene: &Scene, frame: &Frame, is_shared: bool) -> Option<Plot> {
 mod tests {
     #![expect(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use asperity_engine::scene::LifeModel;
 
     #[test]
     fn pairs_are_rainflows_and_lie_on_the_path() {

@@ -2,7 +2,7 @@
 
 use asperity_engine::math::number::{GPA, MPA, UM, Unit, nice_ceiling};
 use asperity_engine::physics::hertz::crest_pressure_pa;
-use asperity_engine::scene::{ContactKind, Scene, Surface};
+use asperity_engine::scene::{ContactKind, Scene};
 #[cfg(not(target_arch = "wasm32"))]
 use asperity_engine::sim::StressSlice;
 use asperity_engine::sim::{Frame, Knob, Metrics};
@@ -231,9 +231,7 @@ impl ToCome {
                     scene.flash_by_blok_k(slide_roll, USUAL_FRICTION, a_m, p_pa)
                 }),
             rough: scene.map_or([false; 2], |scene| {
-                scene
-                    .surfaces()
-                    .map(|surface| !matches!(surface, Surface::Smooth {}))
+                scene.surfaces().map(|surface| !surface.is_smooth())
             }),
         }
     }

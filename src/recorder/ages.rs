@@ -63,11 +63,7 @@ pub(crate) static AGES: [AgeCurves; 7] = [
         names: &["lambda ratio"],
         values: |age| [age.lambda_ratio, None],
         has: |scene| {
-            scene.lubricant.is_some()
-                && scene
-                    .surfaces()
-                    .iter()
-                    .any(|surface| !matches!(surface, Surface::Smooth {}))
+            scene.lubricant.is_some() && !scene.surfaces().into_iter().all(Surface::is_smooth)
         },
     },
     AgeCurves {

@@ -2,6 +2,8 @@
 //! as fine and a run four times as long.
 //!
 //! ```text
+//! answer     what `asperity run` prints: up its ladder, or beside a companion on half the nodes, its band over phases where it hangs
+//!            on them
 //! life       inside: low ≤ life of the finer and longer run ≤ high, on every mesh of the ladder; width: ln (high/low)/2 over
 //!            |ln life − ln that|
 //! others     inside: |value − that of the finer run of the same length, at the same moment| ≤ its error; width: the one over the
@@ -12,10 +14,12 @@
 //! The finer run is not the truth: what it is itself off counts against the band.
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use asperity_engine::plan::Plan;
 use asperity_engine::scene::{ContactKind, Knob, Scene, presets};
 use asperity_engine::sim::{Rung, Summary};
+use asperity_session::run::{Assumed, Companion, NoEstimate};
 
 use super::{
     Extent, MarkdownTable, Report, StudyError, StudyProgress, climb, figure, planned,
@@ -113,7 +117,20 @@ impl Case {
 
     fn run(self, way: Way) -> Result<Summary, String> {
         let (scene, plan) = self.planned(way)?;
-        Ok(climb(Arc::new(scene), plan, 1)?.summary)
+        let scene = Arc::new(scene);
+        let mut summary = climb(Arc::clone(&scene), plan.clone(), 1)?.summary;
+        if way == Way::Answer {
+            if summary.error_h_central_m.is_none() {
+                let companion = Companion::start(&scene, &plan, 1);
+                match companion.and_then(|companion| companion.compare(&mut summary)) {
+                    Ok(_) | Err(NoEstimate::TooCoarse(_) | NoEstimate::Unresolved(_)) => {}
+                    Err(reason) => return Err(reason.to_string()),
+                }
+            }
+            let goes_on = AtomicBool::new(false);
+            Assumed::Phase.vary(&scene, &plan, 1, &mut summary, &goes_on);
+        }
+        Ok(summary)
     }
 }
 
@@ -162,16 +179,17 @@ const NUMBERS: [Number; 4] = [
 impl Banded {
     /// Every mesh of the answer; that of a scene with one alone too.
     fn rungs(&self) -> Vec<Rung> {
-        if !self.answer.rungs.is_empty() {
-            return self.answer.rungs.clone();
-        }
-        vec![Rung {
+        let mut rungs = self.answer.rungs.clone();
+        rungs.pop();
+        // The last has what only the whole answer knows.
+        rungs.push(Rung {
             nodes: self.case.nodes,
             life_relative: self.answer.life_relative,
             life_relative_low: self.answer.life_relative_low,
             life_relative_high: self.answer.life_relative_high,
             seconds: self.answer.wall_s,
-        }]
+        });
+        rungs
     }
 
     /// Life of a mesh against the finer and longer run; `None`: it has none, or no band.

@@ -119,7 +119,7 @@ impl LifeStage {
             laws,
             sweep: SweptRows::new(stress.row_count()),
             depths,
-            is_smooth: (scene.surfaces().iter()).all(|s| matches!(s, Surface::Smooth {})),
+            is_smooth: scene.surfaces().into_iter().all(Surface::is_smooth),
             calibration,
             sides: match scene.kind() {
                 ContactKind::Point => 2.0,
