@@ -48,29 +48,61 @@ pub enum HistoryEnds {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Rainflow {
     turning: Turning,
-    ends: HistoryEnds,
-    /// Reversals that are not counted yet.
-    stack: Vec<f64>,
-    /// What is left at the end, as a ring.
-    ring: Vec<f64>,
-    capacity: usize,
-    forced: u64,
+    open: OpenReversals,
 }
 
 saved! {
-    Rainflow { same: ends, capacity; parts: turning; room: stack, ring; free: forced; }
+    Rainflow { parts: turning, open; }
 }
 
 impl Rainflow {
     /// Counter of cycles with a range of at least `gate`, with memory for `capacity` open reversals
     /// (at least 4).
     pub fn new(ends: HistoryEnds, gate: f64, capacity: usize) -> Self {
-        let capacity = capacity.max(4);
         Self {
             turning: Turning::new(gate),
+            open: OpenReversals::new(ends, capacity),
+        }
+    }
+
+    /// Half cycles that were counted early for want of memory.
+    pub fn forced(&self) -> u64 {
+        self.open.forced
+    }
+
+    /// Next value of the history; gives every cycle that it closes to `sink`.
+    pub fn push(&mut self, value: f64, sink: &mut impl FnMut(Cycle)) {
+        self.open.push(self.turning.push(value), sink);
+    }
+
+    /// Ends the history; the next value starts a new one.
+    pub fn finish(&mut self, sink: &mut impl FnMut(Cycle)) {
+        self.open.finish(self.turning.extreme(), sink);
+        self.turning.reset();
+    }
+}
+
+/// Reversals of a history that are not counted yet. Where histories are many, what sees the reversals ([`Turning`]) lies
+/// elsewhere: each value is a matter of that, and few are one of these.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct OpenReversals {
+    ends: HistoryEnds,
+    stack: Vec<f64>,
+    capacity: usize,
+    forced: u64,
+}
+
+saved! {
+    OpenReversals { same: ends, capacity; room: stack; free: forced; }
+}
+
+impl OpenReversals {
+    /// Memory for `capacity` of them (at least 4).
+    pub fn new(ends: HistoryEnds, capacity: usize) -> Self {
+        let capacity = capacity.max(4);
+        Self {
             ends,
-            stack: Vec::with_capacity(capacity + 2),
-            ring: Vec::with_capacity(capacity + 3),
+            stack: Vec::with_capacity(capacity + 3),
             capacity,
             forced: 0,
         }
@@ -79,33 +111,20 @@ impl Rainflow {
     /// Starts a new history.
     pub fn reset(&mut self) {
         self.stack.clear();
-        self.turning.reset();
     }
 
-    /// Minimum and maximum of the reversals that are not counted yet; (∞, −∞) for none.
-    pub fn open_ends(&self) -> (f64, f64) {
-        let none = (f64::INFINITY, f64::NEG_INFINITY);
-        let wider = |(low, high): (f64, f64), v: &f64| (low.min(*v), high.max(*v));
-        self.stack.iter().fold(none, wider)
-    }
-
-    /// Half cycles that were counted early for want of memory.
-    pub fn forced(&self) -> u64 {
-        self.forced
-    }
-
-    /// Next value of the history; gives every cycle that it closes to `sink`.
-    pub fn push(&mut self, value: f64, sink: &mut impl FnMut(Cycle)) {
-        match self.turning.push(value) {
-            Turn::First => self.stack.push(value),
+    /// What the next value of the history turned out to be; gives every cycle that it closes to `sink`.
+    pub fn push(&mut self, turn: Turn, sink: &mut impl FnMut(Cycle)) {
+        match turn {
+            Turn::First(value) => self.stack.push(value),
             Turn::Peak(extreme) | Turn::Trough(extreme) => self.reversal(extreme, sink),
             Turn::None => {}
         }
     }
 
-    /// Ends the history; the next value starts a new one.
-    pub fn finish(&mut self, sink: &mut impl FnMut(Cycle)) {
-        if let Some(extreme) = self.turning.extreme() {
+    /// Ends the history with the extreme since the last reversal; the next one starts a new one.
+    pub fn finish(&mut self, extreme: Option<f64>, sink: &mut impl FnMut(Cycle)) {
+        if let Some(extreme) = extreme {
             self.stack.push(extreme);
             self.close(sink);
         }
@@ -129,16 +148,20 @@ impl Rainflow {
             return;
         }
         let greatest = (0..n).fold(0, |g, i| if self.stack[i] > self.stack[g] { i } else { g });
-        self.ring.clear();
+        self.stack.rotate_left(greatest);
+        self.stack.push(self.stack[0]);
+        // What has not found its partner lies before `kept`.
+        let mut kept = 0;
         for i in 0..=n {
-            self.ring.push(self.stack[(greatest + i) % n]);
-            while let [.., a, b, c] = self.ring[..] {
+            self.stack[kept] = self.stack[i];
+            kept += 1;
+            while let [.., a, b, c] = self.stack[..kept] {
                 if (c - b).abs() < (b - a).abs() {
                     break;
                 }
                 sink(cycle(a, b, 1.0));
-                let n = self.ring.len();
-                self.ring.drain(n - 3..n - 1);
+                kept -= 2;
+                self.stack[kept - 1] = c;
             }
         }
     }

@@ -35,13 +35,23 @@ enum Trend {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Turn {
     /// The history begins with it.
-    First,
+    First(f64),
     /// Nothing turned.
     None,
     /// It has fallen from this peak by the gate.
     Peak(f64),
     /// It has risen from this trough by the gate.
     Trough(f64),
+}
+
+impl Turn {
+    /// The reversal, the first value among them.
+    pub fn reversal(self) -> Option<f64> {
+        match self {
+            Self::First(value) | Self::Peak(value) | Self::Trough(value) => Some(value),
+            Self::None => None,
+        }
+    }
 }
 
 impl Turning {
@@ -67,7 +77,7 @@ impl Turning {
             Trend::Empty => {
                 self.candidate = value;
                 self.heading = Trend::Level;
-                return Turn::First;
+                return Turn::First(value);
             }
             Trend::Level if comes_back && value != before => {
                 self.candidate = value;

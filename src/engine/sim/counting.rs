@@ -234,6 +234,7 @@ impl Counting {
                 self.pass(travel, &lines, passing);
                 left = left.saturating_sub(1);
                 if (n + 1).is_multiple_of(every) {
+                    self.weigh();
                     marked(self);
                 }
             }
@@ -241,7 +242,15 @@ impl Counting {
         self.last_round = last;
         self.last_round.restart();
         self.trackers[shown].look_at(at, self.shown_depth);
+        self.weigh();
         marked(self);
+    }
+
+    /// What crossings that have ended make of the swept integral, as of now.
+    pub(super) fn weigh(&mut self) {
+        if let Some(by_damage) = &mut self.by_damage {
+            by_damage.weigh();
+        }
     }
 
     /// Moves the points by `travel` (in a) below such lines.
@@ -335,7 +344,7 @@ impl Counting {
         by_damage.map_or(1.0, |by_damage| by_damage.covers(period, &self.trackers))
     }
 
-    /// ln of what the swept integral of a law becomes as the mean over material points, by depth.
+    /// ln of what the swept integral of a law becomes as the mean over material points, by depth, when it was weighed last.
     pub(super) fn ln_ratios(&self, body: BodyId, law: usize) -> Option<&[f64]> {
         Some(self.by_damage.as_ref()?.ln_ratios(body, law))
     }

@@ -141,7 +141,7 @@ impl DamageCount {
         own.distance += travel.abs();
     }
 
-    /// After both bodies' steps: n and r of now, with the cycles of `trackers`; means are over `round` (in a, at U).
+    /// After both bodies' steps: n of now, with the cycles of `trackers`; means are over `round` (in a, at U).
     pub(super) fn take(&mut self, travel: [f64; 2], round: f64, trackers: &[MaterialTracker; 2]) {
         self.fastest += travel[0].abs().max(travel[1].abs());
         self.is_known = true;
@@ -150,6 +150,12 @@ impl DamageCount {
             let distances = (body.distance, self.fastest);
             let share = tracker.finished() / body.points_needed(round, mean);
             self.is_known &= tracker.damage_cycles(distances, share.min(1.0), &mut body.cycles);
+        }
+    }
+
+    /// r of now.
+    pub(super) fn weigh(&mut self) {
+        for body in &mut self.bodies {
             let depths = body.cycles.len().max(1);
             for (law, out) in body.ln_ratios.chunks_exact_mut(depths).enumerate() {
                 body.columns.ln_ratios(law, body.own, body.needed, out);

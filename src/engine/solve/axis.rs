@@ -17,34 +17,51 @@ pub struct Line<'a> {
     pub effective: Option<&'a [f32]>,
 }
 
+/// A place between the nodes.
+#[derive(Clone, Copy)]
+struct Place {
+    /// The node before it.
+    node: usize,
+    /// Part of the way to the next.
+    part: f64,
+}
+
+impl Place {
+    fn read(self, row: &[f32]) -> f64 {
+        let [before, after] = [self.node, self.node + 1].map(|node| f64::from(row[node]));
+        before * (1.0 - self.part) + after * self.part
+    }
+}
+
 impl Line<'_> {
-    /// Linear interpolation in one row of nodes; 0 outside.
-    fn at(&self, row: &[f32], x: f64) -> f64 {
+    /// `None`: outside.
+    fn place(&self, x: f64) -> Option<Place> {
+        let nodes = self.pressure.len();
         let place = (x - self.x_first) / self.dx;
-        if place < 0.0 || place > (row.len() - 1) as f64 {
-            return 0.0;
+        if place < 0.0 || place > (nodes - 1) as f64 {
+            return None;
         }
-        let i = (place as usize).min(row.len().saturating_sub(2));
-        let part = place - i as f64;
-        f64::from(row[i]) * (1.0 - part) + f64::from(row[i + 1]) * part
+        let node = (place as usize).min(nodes.saturating_sub(2));
+        let part = place - node as f64;
+        Some(Place { node, part })
     }
 
+    /// Outside there is none.
     pub(super) fn pressure_at(&self, x: f64) -> f64 {
-        self.at(self.pressure, x)
+        self.place(x).map_or(0.0, |place| place.read(self.pressure))
     }
 
+    /// Shear at depth `k`; 0 outside, and where it is not known.
     pub(super) fn shear_at(&self, k: usize, x: f64) -> f64 {
-        self.below(self.tau_xz, k, x)
+        let field = self.tau_xz.unwrap_or_default();
+        self.below(field, x).nth(k).unwrap_or(0.0)
     }
 
-    pub(super) fn effective_at(&self, k: usize, x: f64) -> f64 {
-        self.below(self.effective, k, x)
-    }
-
-    fn below(&self, field: Option<&[f32]>, k: usize, x: f64) -> f64 {
-        let nx = self.pressure.len();
+    /// A `field` below `x` by depth; 0 outside.
+    pub(super) fn below(&self, field: &[f32], x: f64) -> impl Iterator<Item = f64> {
+        let place = self.place(x);
         field
-            .and_then(|field| field.get(k * nx..(k + 1) * nx))
-            .map_or(0.0, |row| self.at(row, x))
+            .chunks_exact(self.pressure.len())
+            .map(move |row| place.map_or(0.0, |place| place.read(row)))
     }
 }

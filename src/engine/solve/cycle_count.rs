@@ -1,4 +1,4 @@
-//! Cycles of one history as it runs, and the damage they do by Miner's rule.
+//! Cycles of histories as they run, and the damage they do by Miner's rule.
 //!
 //! ```text
 //! D = Σ count · s^m         s: range of the cycle, or its peak (mean + range/2), in p_h
@@ -8,8 +8,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::physics::rainflow::{Cycle, HistoryEnds, Rainflow};
-use crate::saved::saved;
+use crate::physics::rainflow::{Cycle, HistoryEnds, OpenReversals};
+use crate::physics::turning::Turning;
+use crate::saved::{any, saved};
 
 /// What a cycle's damage is taken from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -51,71 +52,88 @@ impl CycleCount {
     }
 }
 
-/// One history: its counter and what it has counted.
+/// Histories of one kind of stress at one point, by depth: their counters and what these have counted.
+///
+/// What every value is held against lies side by side: with two thousand histories, counters between it are memory that each step
+/// would wait for.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct CrossingHistory {
-    flow: Rainflow,
+pub(super) struct CrossingHistories {
     basis: DamageBasis,
+    turnings: Vec<Turning>,
+    open: Vec<OpenReversals>,
+    /// Minimum and maximum of the reversals since the crossing began, at zero.
+    pub(super) spans: Vec<[f64; 2]>,
     #[serde(rename = "tally")]
-    pub(super) cycles: CycleCount,
-    /// CycleCount of the last whole crossing.
-    pub(super) last: Option<CycleCount>,
+    pub(super) cycles: Vec<CycleCount>,
+    /// Of the last whole crossing.
+    pub(super) last: Vec<Option<CycleCount>>,
 }
+
+any!(CycleCount);
 
 saved! {
-    CrossingHistory { same: basis; parts: flow; free: cycles, last; }
+    CrossingHistories { same: basis; parts: turnings, open, spans, cycles; free: last; }
+    holds |own, saved| own.last.len() == saved.last.len()
 }
 
-impl CrossingHistory {
+impl CrossingHistories {
     /// Open reversals of a crossing's pressure: far more than the crests of any contact that a grid resolves.
     pub(super) const OPEN: usize = 512;
     /// Same at a depth, where there are many histories: twice the crests on the rising side of a contact
     /// with 100 of them.
     pub(super) const OPEN_BELOW: usize = 100;
 
-    pub(super) fn new(gate: f64, basis: DamageBasis, open: usize) -> Self {
+    /// At so many `depths`, with memory for so many `open` reversals each.
+    pub(super) fn new(depths: usize, gate: f64, basis: DamageBasis, open: usize) -> Self {
+        // Each made anew: a clone would not have the room.
+        let open = |_| OpenReversals::new(HistoryEnds::Repeating, open);
         Self {
-            flow: Rainflow::new(HistoryEnds::Repeating, gate, open),
             basis,
-            cycles: CycleCount::default(),
-            last: None,
+            turnings: vec![Turning::new(gate); depths],
+            open: (0..depths).map(open).collect(),
+            spans: vec![[0.0; 2]; depths],
+            cycles: vec![CycleCount::default(); depths],
+            last: vec![None; depths],
         }
     }
 
-    pub(super) fn push(&mut self, value: f64, exponent: f64) {
-        let Self {
-            flow,
-            cycles,
-            basis,
-            ..
-        } = self;
-        flow.push(value, &mut |cycle| cycles.add(cycle, *basis, exponent));
-    }
-
-    /// Minimum and maximum value so far.
-    pub(super) fn ends(&self) -> (f64, f64) {
-        self.flow.open_ends()
+    /// Next value of each.
+    pub(super) fn push(&mut self, values: impl Iterator<Item = f64>, exponent: f64) {
+        let basis = self.basis;
+        for (k, (turning, value)) in self.turnings.iter_mut().zip(values).enumerate() {
+            let turn = turning.push(value);
+            if let Some(reversal) = turn.reversal() {
+                let [low, high] = self.spans[k];
+                self.spans[k] = [low.min(reversal), high.max(reversal)];
+                let cycles = &mut self.cycles[k];
+                self.open[k].push(turn, &mut |cycle| cycles.add(cycle, basis, exponent));
+            }
+        }
     }
 
     /// Starts a crossing at zero stress.
     pub(super) fn start(&mut self, exponent: f64) {
-        self.flow.reset();
-        self.cycles = CycleCount::default();
-        self.push(0.0, exponent);
+        self.turnings.iter_mut().for_each(Turning::reset);
+        self.open.iter_mut().for_each(OpenReversals::reset);
+        self.spans.fill([0.0; 2]);
+        self.cycles.fill(CycleCount::default());
+        self.push(std::iter::repeat(0.0), exponent);
     }
 
     /// Ends it at zero stress.
     pub(super) fn end(&mut self, exponent: f64, crossing: Crossing) {
-        self.push(0.0, exponent);
-        let Self {
-            flow,
-            basis,
-            cycles,
-            last,
-        } = self;
-        flow.finish(&mut |cycle| cycles.add(cycle, *basis, exponent));
+        self.push(std::iter::repeat(0.0), exponent);
+        let basis = self.basis;
+        let counters = self.turnings.iter().zip(&mut self.open);
+        for ((turning, open), cycles) in counters.zip(&mut self.cycles) {
+            open.finish(turning.extreme(), &mut |cycle| {
+                cycles.add(cycle, basis, exponent);
+            });
+        }
         if crossing == Crossing::Whole {
-            *last = Some(*cycles);
+            for (last, cycles) in self.last.iter_mut().zip(&self.cycles) {
+                *last = Some(*cycles);
+            }
         }
     }
 }

@@ -46,7 +46,7 @@ pub use self::spec::TrackerSpec;
 pub use super::axis::Line;
 pub use super::cycle_count::CycleCount;
 use super::cycle_count::DamageBasis;
-use super::cycle_count::{Crossing, CrossingHistory};
+use super::cycle_count::{Crossing, CrossingHistories};
 use super::damage::DamageMap;
 use crate::physics::turning::{PassedMaximum, Peaks};
 use crate::saved::saved;
@@ -61,11 +61,12 @@ struct TrackedPoint {
     crossing: Crossing,
     /// Place on the body, a: does not change during a crossing.
     place: f64,
-    pressure: CrossingHistory,
+    /// Of one depth.
+    pressure: CrossingHistories,
     /// Of the pressure, as they pass.
     peaks: Peaks,
-    shear: Vec<CrossingHistory>,
-    effective: Vec<CrossingHistory>,
+    shear: CrossingHistories,
+    effective: CrossingHistories,
 }
 
 saved! {
@@ -76,10 +77,13 @@ saved! {
 }
 
 impl TrackedPoint {
-    fn histories(&mut self) -> impl Iterator<Item = &mut CrossingHistory> {
-        std::iter::once(&mut self.pressure)
-            .chain(&mut self.shear)
-            .chain(&mut self.effective)
+    fn histories(&mut self) -> [&mut CrossingHistories; 3] {
+        [&mut self.pressure, &mut self.shear, &mut self.effective]
+    }
+
+    /// The pressure's cycles in the last whole crossing.
+    fn crossed(&self) -> Option<CycleCount> {
+        self.pressure.last[0]
     }
 }
 
@@ -144,25 +148,21 @@ impl MaterialTracker {
         let length = spec.x_last - spec.x_first;
         let count = spec.points.max(1);
         let below = |gate: f64, basis: DamageBasis| {
-            CrossingHistory::new(gate, basis, CrossingHistory::OPEN_BELOW)
+            CrossingHistories::new(spec.depths, gate, basis, CrossingHistories::OPEN_BELOW)
         };
         let point = |i: usize| TrackedPoint {
             x: spec.x_first + length * (GOLDEN * i as f64).fract(),
             crossing: Crossing::New,
             place: 0.0,
-            pressure: CrossingHistory::new(
+            pressure: CrossingHistories::new(
+                1,
                 spec.pressure_gate,
                 DamageBasis::Ranges,
-                CrossingHistory::OPEN,
+                CrossingHistories::OPEN,
             ),
             peaks: Peaks::new(spec.pressure_gate),
-            // Each made anew: a clone would not have the room.
-            shear: (0..spec.depths)
-                .map(|_| below(spec.shear_gate, DamageBasis::Ranges))
-                .collect(),
-            effective: (0..spec.depths)
-                .map(|_| below(spec.effective_gate, DamageBasis::Peaks))
-                .collect(),
+            shear: below(spec.shear_gate, DamageBasis::Ranges),
+            effective: below(spec.effective_gate, DamageBasis::Peaks),
         };
         let mut tracker = Self {
             spec,
@@ -188,9 +188,9 @@ impl MaterialTracker {
         for point in &mut self.points {
             point.crossing = Crossing::New;
             point.place = point.x - distance;
-            for history in point.histories() {
-                history.start(exponent);
-                history.last = None;
+            for histories in point.histories() {
+                histories.start(exponent);
+                histories.last.fill(None);
             }
             point.peaks.start();
         }
@@ -251,14 +251,14 @@ impl MaterialTracker {
         let exponent = self.spec.damage_exponent;
         let point = &mut self.points[i];
         let crossing = point.crossing;
-        for history in point.histories() {
-            history.end(exponent, crossing);
+        for histories in point.histories() {
+            histories.end(exponent, crossing);
         }
-        for (ended, history) in self.ended.iter_mut().zip(&point.shear) {
-            *ended += history.cycles.small_damage(exponent);
+        for (ended, cycles) in self.ended.iter_mut().zip(&point.shear.cycles) {
+            *ended += cycles.small_damage(exponent);
         }
-        for history in point.histories() {
-            history.start(exponent);
+        for histories in point.histories() {
+            histories.start(exponent);
         }
     }
 
@@ -269,13 +269,12 @@ impl MaterialTracker {
         let point = &mut self.points[i];
         point.crossing = Crossing::Done;
         self.crossings += 1;
-        for (greatest, history) in self.greatest.iter_mut().zip(&point.shear) {
-            *greatest += history
-                .last
-                .map_or(0.0, |cycles| cycles.range.powf(exponent));
+        for (greatest, last) in self.greatest.iter_mut().zip(&point.shear.last) {
+            *greatest += last.map_or(0.0, |cycles| cycles.range.powf(exponent));
         }
         if let Some(map) = &mut self.map {
-            let damage = point.effective.iter().filter_map(|h| Some(h.last?.damage));
+            let last = point.effective.last.iter();
+            let damage = last.filter_map(|last| Some((*last)?.damage));
             map.add(point.place, damage);
         }
     }
@@ -306,17 +305,13 @@ impl MaterialTracker {
         if point.crossing == Crossing::Done {
             return;
         }
-        point.pressure.push(pressure, exponent);
+        (point.pressure).push(std::iter::once(pressure), exponent);
         point.peaks.push(point.x, pressure);
-        if line.tau_xz.is_some() {
-            for (k, history) in point.shear.iter_mut().enumerate() {
-                history.push(line.shear_at(k, point.x), exponent);
-            }
+        if let Some(field) = line.tau_xz {
+            point.shear.push(line.below(field, point.x), exponent);
         }
-        if line.effective.is_some() {
-            for (k, history) in point.effective.iter_mut().enumerate() {
-                history.push(line.effective_at(k, point.x), exponent);
-            }
+        if let Some(field) = line.effective {
+            point.effective.push(line.below(field, point.x), exponent);
         }
     }
 
@@ -344,7 +339,7 @@ impl MaterialTracker {
             tau_xz: line.shear_at(self.spec.shown_depth, point.x),
             peaks: point.peaks.passed(),
             last_peak: point.peaks.last(),
-            closed_before: point.pressure.last.map(|cycles| cycles.count),
+            closed_before: point.crossed().map(|cycles| cycles.count),
         }
     }
 
@@ -375,7 +370,7 @@ impl MaterialTracker {
     pub fn phases(&self) -> usize {
         self.points
             .iter()
-            .filter(|p| p.pressure.last.is_some())
+            .filter(|point| point.crossed().is_some())
             .count()
     }
 }
@@ -459,7 +454,7 @@ mod tests {
             tracker.step(0.0, 1.2, &line);
         }
         // Mean cycles of pressure so far in the present crossing, which never ends.
-        let counts = tracker.points.iter().map(|p| p.pressure.cycles.count);
+        let counts = (tracker.points.iter()).map(|point| point.pressure.cycles[0].count);
         let open = counts.sum::<f64>() / tracker.points.len() as f64;
         println!("100 crests over a standing body: {open}");
         assert!(tracker.pressure_cycles().is_none());

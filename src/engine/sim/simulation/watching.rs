@@ -6,7 +6,7 @@ use crate::physics::cycles::speed_ratios;
 use crate::physics::felt::felt_contacts;
 use crate::plan::TimeDependence;
 use crate::scene::CycleBasis;
-use crate::sim::counting::{contacts, felt_at_points};
+use crate::sim::counting::{Counting, contacts, felt_at_points};
 use crate::sim::damage_count::Passing;
 use crate::sim::drive::Drive;
 use crate::sim::fatigue_stage::Now;
@@ -150,6 +150,7 @@ fn sample_life(plan: &SimPlan, state: &mut State, work: &mut Work, stats: &mut S
         if let Some(life) = &mut state.life
             && due
         {
+            state.counting.iter_mut().for_each(Counting::weigh);
             life.push(every, stress, state.counting.as_ref());
             if flushed {
                 life.test_settled(stress_error, repeat, state.counting.as_ref());

@@ -2,23 +2,23 @@
 //!
 //! Part of `material.rs`.
 
-use super::{CycleCount, MaterialTracker};
+use super::{CycleCount, MaterialTracker, TrackedPoint};
 use crate::solve::cycle_count::mean;
 
 impl MaterialTracker {
     /// Mean over the points' last whole crossings of the pressure's cycles; `None` until one is finished.
     pub fn pressure_cycles(&self) -> Option<CycleCount> {
-        mean(self.points.iter().filter_map(|p| p.pressure.last))
+        mean(self.points.iter().filter_map(TrackedPoint::crossed))
     }
 
     /// Same of the signed shear at depth `k`.
     pub fn shear_cycles(&self, k: usize) -> Option<CycleCount> {
-        mean(self.points.iter().filter_map(|p| p.shear.get(k)?.last))
+        mean((self.points.iter()).filter_map(|point| *point.shear.last.get(k)?))
     }
 
     /// Same of the effective stress at depth `k`; sizes are peaks.
     pub fn effective_cycles(&self, k: usize) -> Option<CycleCount> {
-        mean(self.points.iter().filter_map(|p| p.effective.get(k)?.last))
+        mean((self.points.iter()).filter_map(|point| *point.effective.last.get(k)?))
     }
 
     /// Mean counts of the signed shear's cycles of every depth into `shear`, and of the effective stress's cycles, each by
@@ -51,13 +51,17 @@ impl MaterialTracker {
         }
         let track = self.spec.x_last - self.spec.x_first;
         let passages = fastest * self.points.len() as f64 / track;
+        out.fill(0.0);
+        for point in &self.points {
+            for (open, cycles) in out.iter_mut().zip(&point.shear.cycles) {
+                *open += cycles.damage;
+            }
+        }
         let mut below = own / fastest;
         for k in (0..self.spec.depths).rev() {
-            let histories = || self.points.iter().map(|point| &point.shear[k]);
-            let open: f64 = histories().map(|h| h.cycles.damage).sum();
             let greatest = self.greatest_damage(k, share);
             if greatest > 0.0 {
-                below = own / fastest + (self.ended[k] + open) / (passages * greatest);
+                below = own / fastest + (self.ended[k] + out[k]) / (passages * greatest);
             }
             out[k] = below;
         }
@@ -75,13 +79,10 @@ impl MaterialTracker {
         if share >= 1.0 {
             return finished;
         }
-        let (low, high) = self
-            .points
-            .iter()
-            .map(|point| point.shear[k].ends())
-            .fold((0.0_f64, 0.0_f64), |all, ends| {
-                (all.0.min(ends.0), all.1.max(ends.1))
-            });
+        let spans = self.points.iter().map(|point| point.shear.spans[k]);
+        let (low, high) = spans.fold((0.0_f64, 0.0_f64), |(low, high), span| {
+            (low.min(span[0]), high.max(span[1]))
+        });
         share * finished + (1.0 - share) * (high - low).powf(self.spec.damage_exponent)
     }
 }
