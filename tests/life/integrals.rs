@@ -4,6 +4,7 @@
 use asperity_engine::physics::cycles::{BodyId, Kinematics, miner_part};
 use asperity_engine::physics::fatigue::LifeLaw;
 use asperity_engine::physics::life_models::{CycleProfile, LifeEquation};
+use asperity_engine::physics::multiaxial::StressPath;
 use asperity_engine::scene::StressMeasure;
 use asperity_engine::solve::critical::shares_of_slice;
 use asperity_engine::solve::life::{Shares, factors};
@@ -368,11 +369,20 @@ fn models_of_one_depth_know_hertz() {
     }
     engine.load(&pressure, None);
     engine.slice(&mut slice);
-    let mut by_depth = vec![0.0_f32; 32];
-    let mut shares = vec![0.0; 32];
+    let mut by_depth = [0.0_f32; 32];
+    let mut shares = [0.0; 32];
+    let mut path = StressPath::new(spec.nx);
     let mut greatest = |model: LifeEquation| {
         let place = (spec.nx, &spec.depths[..]);
-        shares_of_slice(model, law, place, &slice, &mut by_depth, &mut shares);
+        shares_of_slice(
+            model,
+            law,
+            place,
+            &slice,
+            &mut path,
+            &mut by_depth,
+            &mut shares,
+        );
         assert_eq!(shares.iter().filter(|ln| ln.is_finite()).count(), 1);
         let k = shares.iter().position(|ln| ln.is_finite()).expect("one");
         (f64::from(by_depth[k]), spec.depths[k])

@@ -2,7 +2,11 @@
 
 use crate::math::grid::{Grid, Symmetry};
 use crate::physics::cycles::BodyId;
+use crate::physics::fatigue::LifeLaw;
+use crate::physics::life_models::LifeEquation;
+use crate::physics::multiaxial::StressPath;
 use crate::scene::StressMeasure;
+use crate::solve::critical::shares_of_slice;
 use crate::solve::life::Shares;
 use crate::solve::stress::{
     Cut, LineStress, Loading, Plane, Purpose, SliceOut, StressEngine, StressError, StressLaw,
@@ -69,8 +73,9 @@ enum TractionActs {
 struct Companions {
     /// The slice of the last step in body 2.
     mate: SliceOut,
-    /// The slice that a criterion reads.
+    /// The slice that a criterion reads, and its memory for a row of it.
     criterion: SliceOut,
+    path: StressPath,
 }
 
 impl StressStage {
@@ -112,6 +117,7 @@ impl StressStage {
             companions: (purpose == Purpose::Volumes).then(|| Companions {
                 mate: slice.clone(),
                 criterion: slice.clone(),
+                path: StressPath::new(grid.nx),
             }),
             slice,
         })
@@ -215,12 +221,22 @@ impl StressStage {
         }
     }
 
-    /// Nodes along x, depths and the slice that a criterion reads.
-    pub(super) fn criterion(&self) -> (usize, &[f64], &SliceOut) {
+    /// ln of the damage and risk by depth below the line y = 0, of the slice that was computed last, by a model of one depth.
+    pub(super) fn criterion(
+        &mut self,
+        (model, law): (LifeEquation, LifeLaw),
+        by_depth: &mut [f32],
+        shares: &mut [f64],
+    ) {
+        let Some(Companions {
+            criterion, path, ..
+        }) = &mut self.companions
+        else {
+            return;
+        };
         let spec = self.engine.spec();
-        let companions = self.companions.as_ref();
-        let slice = companions.map_or(&self.slice, |companions| &companions.criterion);
-        (spec.nx, &spec.depths, slice)
+        let place = (spec.nx, &spec.depths[..]);
+        shares_of_slice(model, law, place, criterion, path, by_depth, shares);
     }
 }
 

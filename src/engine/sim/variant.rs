@@ -10,7 +10,6 @@ use crate::physics::fatigue::LifeLaw;
 use crate::physics::life_models::LifeEquation;
 use crate::saved::saved;
 use crate::scene::{CycleBasis, Life, LifeModel, Spread};
-use crate::solve::critical::shares_of_slice;
 use crate::solve::life::{LifeMeter, Shares, SweptRows, Window};
 use crate::solve::stress::{Loading, StressLaw};
 
@@ -201,18 +200,10 @@ impl Variant {
                 }
             } else {
                 stress.criterion_slice(loading);
-                let (nx, depths, slice) = stress.criterion();
                 let target = shared.scratch.of_mut(loading);
                 // Full load comes after the pressure alone and stays.
                 let by_depth = &mut self.by_depth[loading.body().index()];
-                shares_of_slice(
-                    self.model,
-                    shared.law,
-                    (nx, depths),
-                    slice,
-                    by_depth,
-                    target,
-                );
+                stress.criterion((self.model, shared.law), by_depth, target);
                 for (most, share) in self.swept.of_mut(loading).iter_mut().zip(target) {
                     *most = most.max(*share);
                 }

@@ -9,21 +9,22 @@
 use super::stress::{DEPTH_SCALE_A, SliceOut};
 use crate::physics::fatigue::LifeLaw;
 use crate::physics::life_models::LifeEquation;
-use crate::physics::multiaxial::{dang_van, findley};
+use crate::physics::multiaxial::StressPath;
 
 /// ln J of `model` from a slice of `nx` nodes below each of `depths`, into `shares`, one per depth; and the
-/// stress of every depth (half range of τ_xz, or risk, p_h) into `by_depth`.
+/// stress of every depth (half range of τ_xz, or risk, p_h) into `by_depth`; `path` is working memory.
 pub fn shares_of_slice(
     model: LifeEquation,
     law: LifeLaw,
     (nx, depths): (usize, &[f64]),
     slice: &SliceOut,
+    path: &mut StressPath,
     by_depth: &mut [f32],
     shares: &mut [f64],
 ) {
     shares.fill(f64::NEG_INFINITY);
     for (k, value) in by_depth.iter_mut().enumerate().take(depths.len()) {
-        *value = stress_at(model, slice, nx, k) as f32;
+        *value = stress_at(model, slice, path, nx, k) as f32;
     }
     let Some(k) = (0..by_depth.len()).max_by(|a, b| by_depth[*a].total_cmp(&by_depth[*b])) else {
         return;
@@ -34,11 +35,23 @@ pub fn shares_of_slice(
     }
 }
 
-fn stress_at(model: LifeEquation, slice: &SliceOut, nx: usize, k: usize) -> f64 {
-    let history = (0..nx).map(|i| slice.state(k * nx + i));
+fn stress_at(
+    model: LifeEquation,
+    slice: &SliceOut,
+    path: &mut StressPath,
+    nx: usize,
+    k: usize,
+) -> f64 {
+    let mut take = || path.take((0..nx).map(|i| slice.state(k * nx + i)));
     match model {
-        LifeEquation::DangVan { hydrostatic } => dang_van(history, hydrostatic),
-        LifeEquation::Findley { normal } => findley(&history, normal).0,
+        LifeEquation::DangVan { hydrostatic } => {
+            take();
+            path.dang_van(hydrostatic)
+        }
+        LifeEquation::Findley { normal } => {
+            take();
+            path.findley(normal).0
+        }
         LifeEquation::LundbergPalmgren { .. }
         | LifeEquation::Zaretsky
         | LifeEquation::IoannidesHarris { .. } => {

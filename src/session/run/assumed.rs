@@ -17,7 +17,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::crew::share_out;
 use super::ladder::{Ladder, Mesh};
 use asperity_engine::plan::Plan;
-use asperity_engine::scene::{EyringFlow, Lubricant, Rheology, Scene, Surface};
+use asperity_engine::scene::{EyringFlow, Lubricant, Rheology, Scene, Spread, Surface};
 use asperity_engine::sim::{CautionCode, Rung, Summary};
 
 /// Phases of body 1 beside the scene's, degrees.
@@ -122,6 +122,9 @@ impl Assumed {
         let mut scenes = vec![(*first.scene).clone(); self.count()];
         for (k, scene) in scenes.iter_mut().enumerate() {
             self.choose(k, scene);
+            if let Some(life) = &mut scene.life {
+                life.spread = Spread::Off; // of their lives the scene's model is all that is read
+            }
         }
         let others = &scenes[usize::from(own.is_some())..];
         let made = share_out(
