@@ -105,7 +105,11 @@ impl LineSweep {
         let (nx, blocks) = (self.nx, self.blocks);
         self.halves[1 - order[0]].z.fill(ZERO);
         // One line alone has no neighbour to wait for.
-        let order = if self.halves[1].rows == 0 { &[0] } else { order };
+        let order = if self.halves[1].rows == 0 {
+            &[0]
+        } else {
+            order
+        };
         for (n, &parity) in order.iter().enumerate() {
             self.sweep(parity, (n < 2).then_some(r));
         }

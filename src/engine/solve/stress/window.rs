@@ -212,47 +212,66 @@ fn erfc(x: f64) -> f64 {
     (-x * x).exp() / (PI.sqrt() * (x + tail))
 }
 
+/// Points whose waves stay at hand while their kernels are summed up.
+const BATCH: usize = 16;
+/// Rows of modes that are summed up beside each other.
+const ROWS: usize = 4;
+
 dispatched! {
 /// Adds every point's kernel times its waves.
 fn accumulate(points: &[QuadraturePoint], z: f64, sums: &mut [ModeTable]) {
-    let mut waves = [[0.0; LOW * LOW]; 4];
-    for p in points {
-        let r = p.x.hypot(p.y);
-        let (f, g) = point_radial(r, z);
-        let families = [f, g].map(|radial| Directions::from_radial(radial, p.x / r, p.y / r));
-        let [even, odd_x, odd_y, odd] = &mut waves;
-        products(even, &p.cos_x, &p.cos_y);
-        products(odd_x, &p.sin_x, &p.cos_y);
-        products(odd_y, &p.cos_x, &p.sin_y);
-        products(odd, &p.sin_x, &p.sin_y);
-        for (sums, d) in sums.chunks_exact_mut(7).zip(&families) {
-            let w = p.weight;
-            // ∫ e^{−ikx} of an odd kernel is −i times its sine integral: the sign goes here.
-            add(&mut sums[0], w * d.one, even);
-            add(&mut sums[1], -w * d.inx, odd_x);
-            add(&mut sums[2], -w * d.iny, odd_y);
-            add(&mut sums[3], w * d.nx2, even);
-            add(&mut sums[4], -w * d.nxny, odd);
-            add(&mut sums[5], -w * d.inx2ny, odd_y);
-            add(&mut sums[6], -w * d.inxny2, odd_x);
+    let mut kernels = [[0.0; BATCH]; KINDS];
+    for batch in points.chunks(BATCH) {
+        for (n, p) in batch.iter().enumerate() {
+            let r = p.x.hypot(p.y);
+            let (f, g) = point_radial(r, z);
+            let families = [f, g].map(|radial| Directions::from_radial(radial, p.x / r, p.y / r));
+            for (family, d) in families.iter().enumerate() {
+                // ∫ e^{−ikx} of an odd kernel is −i times its sine integral: the sign goes here.
+                let signed = [d.one, -d.inx, -d.iny, d.nx2, -d.nxny, -d.inx2ny, -d.inxny2];
+                for (direction, kernel) in signed.iter().enumerate() {
+                    kernels[7 * family + direction][n] = p.weight * kernel;
+                }
+            }
+        }
+        for (kind, sum) in sums.iter_mut().enumerate() {
+            let kernels = &kernels[kind][..batch.len()];
+            match kind % 7 {
+                1 | 6 => add(sum, batch, kernels, |p| (&p.sin_x, &p.cos_y)),
+                2 | 5 => add(sum, batch, kernels, |p| (&p.cos_x, &p.sin_y)),
+                4 => add(sum, batch, kernels, |p| (&p.sin_x, &p.sin_y)),
+                _ => add(sum, batch, kernels, |p| (&p.cos_x, &p.cos_y)),
+            }
         }
     }
 }
 }
 
-#[inline(always)]
-fn products(out: &mut ModeTable, along_x: &[f64; LOW], along_y: &[f64; LOW]) {
-    for (row, wave_y) in out.chunks_exact_mut(LOW).zip(along_y) {
-        for l in 0..LOW {
-            row[l] = wave_y * along_x[l];
-        }
-    }
-}
+/// Waves of a point along x and along y.
+type Waves<'a> = (&'a [f64; LOW], &'a [f64; LOW]);
 
+/// Adds `kernels` times the waves of their points.
 #[inline(always)]
-fn add(sum: &mut ModeTable, kernel: f64, waves: &ModeTable) {
-    for i in 0..LOW * LOW {
-        sum[i] = waves[i].fused(kernel, sum[i]);
+fn add(
+    sum: &mut ModeTable,
+    batch: &[QuadraturePoint],
+    kernels: &[f64],
+    waves: impl Fn(&QuadraturePoint) -> Waves<'_>,
+) {
+    let (rows, _) = sum.as_chunks_mut::<LOW>();
+    let (blocks, _) = rows.as_chunks_mut::<ROWS>();
+    for (block, rows) in blocks.iter_mut().enumerate() {
+        let mut own = *rows;
+        for (p, kernel) in batch.iter().zip(kernels) {
+            let (along_x, along_y) = waves(p);
+            for (row, wave_y) in own.iter_mut().zip(&along_y[block * ROWS..]) {
+                let weight = kernel * wave_y;
+                for (own, wave_x) in row.iter_mut().zip(along_x) {
+                    *own = wave_x.fused(weight, *own);
+                }
+            }
+        }
+        *rows = own;
     }
 }
 
