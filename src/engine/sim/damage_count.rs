@@ -156,10 +156,10 @@ impl DamageCount {
     /// r of now.
     pub(super) fn weigh(&mut self) {
         for body in &mut self.bodies {
-            let depths = body.cycles.len().max(1);
-            for (law, out) in body.ln_ratios.chunks_exact_mut(depths).enumerate() {
-                body.columns.ln_ratios(law, body.own, body.needed, out);
-            }
+            let BodyCount {
+                columns, ln_ratios, ..
+            } = body;
+            columns.ln_ratios(body.own, body.needed, ln_ratios);
         }
     }
 
