@@ -197,7 +197,11 @@ fn crafted_states_are_refused_in_words() {
     };
     let huge = json!(1_000_000_000_u64);
     let shares = good["life"]["variants"][0]["meter"]["mean"].clone();
-    let first_history = "/counting/trackers/0/points/0/pressure/flow/capacity";
+    let point = |field: &str| format!("/counting/trackers/0/points/0/{field}");
+    let capacity = point("pressure/open/0/capacity");
+    let stack = point("shear/open/0/stack");
+    let shears =
+        ["turnings", "open", "spans", "tally", "last"].map(|of| point(&format!("shear/{of}")));
     let crafted = [
         ("/nodes", huge.clone()),
         ("/nodes", json!(129)),
@@ -233,13 +237,15 @@ fn crafted_states_are_refused_in_words() {
         ("/life", Value::Null),
         ("/counting/trackers/0/spec/trace", huge.clone()),
         ("/counting/trackers/0/spec/points", huge.clone()),
-        (first_history, huge),
+        (&capacity[..], huge),
+        (&stack[..], json!(vec![1.0; 200])),
         ("/counting/trackers/1/points", json!([])),
         ("/counting/trackers/1/shown", json!(999)),
         ("/counting/trackers/1/oldest", json!(5000)),
         ("/counting/shown_depth", json!(99)),
     ];
-    for (pointer, value) in crafted {
+    let lists = shears.iter().map(|list| (&list[..], shorter(list)));
+    for (pointer, value) in crafted.into_iter().chain(lists) {
         let mut state = good.clone();
         *state
             .pointer_mut(pointer)

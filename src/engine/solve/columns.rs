@@ -463,7 +463,10 @@ mod tests {
     fn points_meet_their_own_greatest_and_not_the_greatest_of_all() {
         for speeds in [[1.0, 1.0], [0.75, 1.25], [1.25, 0.75]] {
             for depth_of in [[0.2, 0.0], [0.0, 0.2], [0.1, 0.1]] {
-                let (r, brute) = (ratio(&mut run(speeds, depth_of, 40.0)), brute(speeds, depth_of));
+                let (r, brute) = (
+                    ratio(&mut run(speeds, depth_of, 40.0)),
+                    brute(speeds, depth_of),
+                );
                 println!("{speeds:?} {depth_of:?}: {r:.4}, point by point {brute:.4}");
                 assert!((r / brute - 1.0).abs() < 0.05, "{r} {brute}");
             }
