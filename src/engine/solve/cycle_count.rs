@@ -168,3 +168,24 @@ pub(super) fn mean(all: impl Iterator<Item = CycleCount>) -> Option<CycleCount> 
         range: sum.range,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_crossing_has_a_span_of_its_own() {
+        let mut histories = CrossingHistories::new(2, 0.1, DamageBasis::Ranges, 8);
+        let mut cross = |values: &[f64]| {
+            histories.start(10.0);
+            for value in values {
+                histories.push([*value, 0.5 * value].into_iter(), 10.0);
+            }
+            let spans = histories.spans.clone();
+            histories.end(10.0, Crossing::Whole);
+            spans
+        };
+        assert_eq!(cross(&[0.5, -0.7, 0.0]), [[-0.7, 0.5], [-0.35, 0.25]]);
+        assert_eq!(cross(&[0.3, 0.0]), [[0.0, 0.3], [0.0, 0.15]]);
+    }
+}
